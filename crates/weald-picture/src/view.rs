@@ -53,6 +53,7 @@ mod trees;
 mod turf;
 mod twin;
 mod vector;
+mod veils;
 mod water;
 mod wooded;
 mod woods;

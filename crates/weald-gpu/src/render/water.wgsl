@@ -17,6 +17,13 @@ const FURTHER = 1.17;
 // Radians over which ripples that are too small to be seen blur what water mirrors.
 const MIRRORED_BLUR = 0.06;
 
+// Radians by which ripples that are too small to be seen throw rays apart.
+const MIRRORED_SPREAD = 0.08;
+
+// How much of the length to which a slant look draws out a pixel on water counts for its ripples: with half of it, as for what
+// lies on ground, ripples of lakes at a distance are streaks one row of pixels high.
+const LENGTHENED = 0.75;
+
 // Metres over which ripples draw out what water mirrors, for each metre that it is away.
 const DRAWN_OUT = 0.02;
 
@@ -107,19 +114,35 @@ fn length_to_border(start: vec3<f32>, direction: vec3<f32>) -> f32 {
     return max(max(enter.x, enter.y), 0.0);
 }
 
-// How far along a ray the land lies; negative where it meets none.
-fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
+// The land that a ray meets or just misses: how far along it that lies, and the share of the rays around this one that meet it.
+struct MirroredLand {
+    ray_length: f32,
+    share: f32,
+}
+
+// The share of rays around one at a point of it that meet the land below: all where that hides it, and those of them that
+// ripples throw so low where it is nearly hidden. What is no higher than the water itself hides nothing.
+fn share_below(start: vec3<f32>, point: vec3<f32>, ray_length: f32) -> f32 {
+    let height = rough_height(place_of(point));
+    let spread = MIRRORED_SPREAD * ray_length;
+    let above_water = clamp((height - start.z) / spread, 0.0, 1.0);
+    return clamp(1.0 - (point.z - height) / spread, 0.0, 1.0) * above_water;
+}
+
+// The land along a ray.
+fn land_along(start: vec3<f32>, direction: vec3<f32>) -> MirroredLand {
     var before = 0.5 * scene.scale.w;
     if HORIZON {
         before = max(before, length_to_border(start, direction) + 0.01 * scene.scale.w);
     }
     var ray_length = before;
+    var nearest = MirroredLand(before, 0.0);
     for (var look = 0; look < MARCH_STEPS; look++) {
         let point = start + direction * ray_length;
         let place = place_of(point);
         let is_outside = any(place < vec2<f32>(0.5)) || any(place > scene.grid.xy + 0.5);
-        if is_outside || point.z > scene.scale.z {
-            return -1.0;
+        if is_outside || point.z > scene.scale.z + MIRRORED_SPREAD * ray_length {
+            return nearest;
         }
         if point.z < rough_height(place) {
             for (var halving = 0; halving < 5; halving++) {
@@ -131,12 +154,16 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
                     before = middle;
                 }
             }
-            return ray_length;
+            return MirroredLand(ray_length, 1.0);
+        }
+        let share = share_below(start, point, ray_length);
+        if share > nearest.share {
+            nearest = MirroredLand(ray_length, share);
         }
         before = ray_length;
         ray_length = ray_length * FURTHER + 0.25 * scene.scale.w;
     }
-    return -1.0;
+    return nearest;
 }
 
 // Shares of light that water mirrors between which land is looked for along the mirrored ray: below, as much of it is mirrored
@@ -167,21 +194,22 @@ fn mirrored_sky(start: vec3<f32>, upward: vec3<f32>) -> vec3<f32> {
 
 // The light that water mirrors: land with its own colours in a direction, or the sky in another.
 fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
-    let ray_length = land_along(start, direction);
-    if ray_length < 0.0 {
-        return mirrored_sky(start, upward);
+    let land = land_along(start, direction);
+    let sky = mirrored_sky(start, upward);
+    if land.share <= 0.0 {
+        return sky;
     }
-    let point = start + direction * ray_length;
+    let point = start + direction * land.ray_length;
     let place = place_of(point);
     let surface = spline_with_slope(bed, place);
     let normal = normal_of(surface.yz);
-    let sharp = max(0.25 * scene.scale.w, (ray_length + length_before) * frame.eye.w);
-    let footprint = max(sharp, DRAWN_OUT * ray_length);
+    let sharp = max(0.25 * scene.scale.w, (land.ray_length + length_before) * frame.eye.w);
+    let footprint = max(sharp, DRAWN_OUT * land.ray_length);
     sight = -direction / vec3<f32>(1.0, 1.0, scene.scale.y);
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
     let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;
-    return veil(radiance, start, direction, ray_length);
+    return mix(sky, veil(radiance, start, direction, land.ray_length), land.share);
 }
 
 // Share of foam that waves leave at the edge of a lake or the sea.
@@ -206,7 +234,7 @@ fn water_radiance(point: vec3<f32>, depth: f32, look: Look) -> vec3<f32> {
     let back = -direction;
     let sun = look.sun;
     let running = look.running;
-    let footprint = look.ray_length * frame.eye.w / sqrt(max(back.z, 0.05));
+    let footprint = look.ray_length * frame.eye.w / pow(max(back.z, 0.05), LENGTHENED);
     let tilt = look.tilt;
     let ripples = flowing(point.xy, tilt, footprint, running.xy);
     let normal = ripples.all;

@@ -4,7 +4,7 @@
 //! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
 //! the other, and at more between them where a side is near, without what is finer than the metres from one to the next: noise
 //! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far away pale as the sky
-//! does. All numbers are chosen by eye.
+//! does. Behind them are thin veils of ice. All numbers are chosen by eye.
 
 use super::sky::Sky;
 use super::solid_grain::solid_grain;
@@ -18,6 +18,11 @@ const ABOVE: f32 = 1300.0;
 
 /// Octaves of the broad noise, and what each is against the one before.
 const BROAD: (u32, f32) = (2, 0.55);
+
+/// Metres from one group of clouds to the next, and by how much noise is higher in a group and lower between: clouds are of all
+/// sizes, and stand in groups with clear sky around them.
+const GROUPS: f32 = 9000.0;
+const GROUPED: f32 = 0.6;
 
 /// Thickness of the layer in metres.
 const THICK: f32 = 700.0;
@@ -33,13 +38,16 @@ const FINER: f32 = 4.0;
 const SIDE: f32 = 0.1;
 
 /// About the most by which noise changes in a metre: so far from where puffs may be levels are passed over.
-const STEEPEST: f32 = 0.0018;
+const STEEPEST: f32 = 0.0019;
 
 /// Share of what lies behind heaps that is no longer looked for.
 const UNSEEN: f32 = 0.02;
 
-/// Noise by which the top of a heap is narrower than its base.
+/// Noise by which the top of a heap is narrower than its broadest part, and by which its base is, up to that share of its height:
+/// with an even base heaps would lie on plates.
 const NARROWER: f32 = 0.42;
+const ROUND: f32 = 0.24;
+const BROADEST: f32 = 0.14;
 
 /// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, the mean of folded
 /// noise, how near to a side puffs are looked for, and between which noise of heaps they stand out.
@@ -48,8 +56,11 @@ const PUFF_OCTAVES: u32 = 5;
 const PUFF_GAIN: f32 = 0.72;
 const PUFF_MEAN: f32 = 0.2;
 const NEAR: f32 = 0.45;
-const HELD: [f32; 2] = [-0.2, 0.1];
+const HELD: [f32; 2] = [-0.06, 0.16];
 const PUFF_SEED: u32 = 0x77;
+
+/// Shares of a heap's height between which it becomes puffed: its base is ragged, but less than its top.
+const FLATTER: [f32; 2] = [-0.15, 0.25];
 
 /// What a metre of a heap hides for each unit of noise above that of its side.
 const DENSE: f32 = 0.12;
@@ -61,14 +72,16 @@ const SOFTER: f32 = 80.0;
 const GLOW: f32 = 0.05;
 
 /// How much paler a heap is for a radian that is seen as one, as the exponent of e: waves mirror clear sky beside it.
-const PALER: f32 = 20.0;
+const PALER: f32 = 30.0;
 
 /// Metres towards the sun at which is looked how much of the heap lies there, and how much of the light that takes.
 const SUNWARD: [f32; 2] = [70.0, 260.0];
 const TAKEN: [f32; 2] = [3.6, 3.2];
 
-/// What all that lies above a base takes of it, and the share of the height over which that ends.
+/// What all that lies above a base takes of it, the share of the height over which that ends, and how far within a heap it is all
+/// of it: little lies above a base near its edge.
 const BASE: [f32; 2] = [2.2, 0.4];
+const UNDER: f32 = 0.24;
 
 /// Share of the sunlight that a heap's sunny side sends to the eye, and what comes through all of it.
 const SUNNY: f32 = 0.3;
@@ -118,7 +131,9 @@ impl Clouds {
     fn heap(&self, [x, y]: [f32; 2], share: f32, footprint: f32) -> f32 {
         let (count, gain) = BROAD;
         let noise = Octaves { wavelength: APART, count, gain, seed: 0x71 }.at([x, y, 0.0], footprint);
-        noise.value - (0.44 - 0.95 * self.share + NARROWER * share * share)
+        let groups =
+            Octaves { wavelength: GROUPS, count: 1, gain: 1.0, seed: 0x72 }.at([x, y, 0.0], footprint);
+        noise.value + GROUPED * groups.value - (0.44 - 0.95 * self.share + narrower(share))
     }
 
     /// The same of a point, with its puffs.
@@ -129,8 +144,8 @@ impl Clouds {
         if heap.abs() > NEAR {
             return heap;
         }
-        // Bases are flat, and sides fade where they end.
-        let puffs = ramp(share, 0.0, 0.25) * ramp(heap.abs(), NEAR, 0.5 * NEAR);
+        // Bases are flatter, and sides fade where they end.
+        let puffs = ramp(share, FLATTER[0], FLATTER[1]) * ramp(heap.abs(), NEAR, 0.5 * NEAR);
         let puff = puff([x, y, up], footprint);
         // Far outside a heap they would be crumbs that float alone.
         let held = if puff > 0.0 { ramp(heap, HELD[0], HELD[1]) } else { 1.0 };
@@ -153,7 +168,8 @@ impl Clouds {
             let there = add(at, scale(sky.sun, SUNWARD[step]));
             TAKEN[step] * self.within(there, footprint.max(0.3 * SUNWARD[step])).max(0.0)
         };
-        let below = BASE[0] * (1.0 - ramp(level, 0.0, BASE[1]));
+        let under = ramp(self.heap([at[0], at[1]], BROADEST, footprint), 0.0, UNDER);
+        let below = BASE[0] * under * (1.0 - ramp(level, 0.0, BASE[1]));
         let through = libm::expf(-(towards(0) + towards(1) + below));
         let glow = GLOW * libm::powf(dot(direction, sky.sun).max(0.0), 12.0);
         add(
@@ -167,6 +183,7 @@ impl Clouds {
         if direction[2] < 0.01 || from[2] >= self.height {
             return radiance;
         }
+        let radiance = self.veiled(sky, [from, direction, radiance], blur);
         let first = (self.height - from[2]) / direction[2];
         let [count, spacing] = self.levels(direction, [first, blur]);
         let dense = DENSE / (1.0 + SOFTER * blur);
@@ -207,8 +224,14 @@ impl Clouds {
     pub(super) fn through(&self, sky: &Sky, point: Vector) -> f32 {
         let length = (self.height - point[2]).max(0.0) / sky.sun[2].max(0.05);
         let at = [0, 1].map(|axis| point[axis] + sky.sun[axis] * length);
-        1.0 - SHADOW * ramp(self.heap(at, 0.0, SOFT), 0.0, 0.34)
+        1.0 - SHADOW * ramp(self.heap(at, BROADEST, SOFT), 0.0, 0.34)
     }
+}
+
+/// The noise by which heaps are narrower at a share of their height.
+fn narrower(share: f32) -> f32 {
+    let below = (1.0 - share / BROADEST).max(0.0);
+    NARROWER * share * share + ROUND * below * below
 }
 
 /// For a value that changes evenly from one level to the next: the mean of what it has above 0, and how far before the second level
@@ -281,6 +304,31 @@ mod tests {
         assert!(clouds(0.0).1.is_none());
         let shares = [0.2, 0.5, 0.9].map(shaded);
         assert!(shares[0] < 0.25 && shares[2] > 0.6 && shares.is_sorted(), "{shares:?}");
+    }
+
+    /// Share of cloud at a share of the heaps' height, without puffs, within a square of a side whose corner is so many sides away.
+    fn covered(clouds: &Clouds, share: f32, side: f32, corner: [usize; 2]) -> f32 {
+        let at = |cell: usize, axis: usize| (corner[axis] as f32 + cell as f32 / 40.0) * side;
+        let within = |cell: &usize| clouds.heap([at(cell % 40, 0), at(cell / 40, 1)], share, 50.0) > 0.0;
+        (0..1600).filter(within).count() as f32 / 1600.0
+    }
+
+    #[test]
+    fn heaps_are_broadest_a_little_above_their_bases() {
+        let clouds = clouds(0.3).1.expect("some");
+        let [base, broadest, top] =
+            [0.0, BROADEST, 0.8].map(|share| covered(&clouds, share, 90_000.0, [0, 0]));
+        assert!(base < 0.75 * broadest && top < 0.75 * broadest, "{base}, {broadest}, {top}");
+    }
+
+    #[test]
+    fn clouds_stand_in_groups_with_clear_sky_between() {
+        let clouds = clouds(0.25).1.expect("some");
+        let mut squares: Vec<f32> =
+            (0..144).map(|square| covered(&clouds, BROADEST, 4500.0, [square % 12, square / 12])).collect();
+        squares.sort_by(f32::total_cmp);
+        let mean = squares.iter().sum::<f32>() / 144.0;
+        assert!(squares[14] < 0.35 * mean && squares[130] > 1.65 * mean, "{mean}: {squares:?}");
     }
 
     #[test]

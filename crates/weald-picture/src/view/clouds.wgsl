@@ -3,39 +3,52 @@
 const CLOUDS_APART = 2200.0;
 const CLOUDS_BROAD = 2u;
 const CLOUDS_GAIN = 0.55;
+const CLOUDS_GROUPS = 9000.0;
+const CLOUDS_GROUPED = 0.6;
 const CLOUDS_THICK = 700.0;
 const CLOUDS_SLICES = vec2<f32>(24.0, 72.0);
 const CLOUDS_STEP = 55.0;
 const CLOUDS_BLURRED = 0.02;
 const CLOUDS_FINER = 4.0;
 const CLOUDS_SIDE = 0.1;
-const CLOUDS_STEEPEST = 0.0018;
+const CLOUDS_STEEPEST = 0.0019;
 const CLOUDS_UNSEEN = 0.02;
 const CLOUDS_NARROWER = 0.42;
+const CLOUDS_ROUND = 0.24;
+const CLOUDS_BROADEST = 0.14;
 const CLOUDS_PUFFS = 800.0;
 const CLOUDS_PUFF_OCTAVES = 5u;
 const CLOUDS_PUFF_GAIN = 0.72;
 const CLOUDS_PUFF_MEAN = 0.2;
 const CLOUDS_NEAR = 0.45;
-const CLOUDS_HELD = vec2<f32>(-0.2, 0.1);
+const CLOUDS_HELD = vec2<f32>(-0.06, 0.16);
 const CLOUDS_PUFF_SEED = 0x77u;
+const CLOUDS_FLATTER = vec2<f32>(-0.15, 0.25);
 const CLOUDS_DENSE = 0.12;
 const CLOUDS_SOFTER = 80.0;
 const CLOUDS_GLOW = 0.05;
-const CLOUDS_PALER = 20.0;
+const CLOUDS_PALER = 30.0;
 const CLOUDS_SUNWARD = vec2<f32>(70.0, 260.0);
 const CLOUDS_TAKEN = vec2<f32>(3.6, 3.2);
 const CLOUDS_BASE = vec2<f32>(2.2, 0.4);
+const CLOUDS_UNDER = 0.24;
 const CLOUDS_SUNNY = 0.3;
 const CLOUDS_THROUGH = 0.035;
 const CLOUDS_LOST = 22000.0;
 const CLOUDS_SHADOW = 0.78;
 const CLOUDS_SOFT = 160.0;
 
+// The noise by which heaps are narrower at a share of their height.
+fn narrower_cloud(share: f32) -> f32 {
+    let below = max(1.0 - share / CLOUDS_BROADEST, 0.0);
+    return CLOUDS_NARROWER * share * share + CLOUDS_ROUND * below * below;
+}
+
 // How far a place is within a heap without its puffs, as noise above what makes cloud there, at a share of its height.
 fn heap_of_cloud(at: vec2<f32>, share: f32, footprint: f32) -> f32 {
     let noise = octaves_at(Octaves(CLOUDS_APART, CLOUDS_BROAD, CLOUDS_GAIN, 0x71u), at, footprint);
-    return noise.value - (0.44 - 0.95 * scene.clouds.w + CLOUDS_NARROWER * share * share);
+    let groups = octaves_at(Octaves(CLOUDS_GROUPS, 1u, 1.0, 0x72u), at, footprint);
+    return noise.value + CLOUDS_GROUPED * groups.value - (0.44 - 0.95 * scene.clouds.w + narrower_cloud(share));
 }
 
 // Puffs at a point, round outward and sharp inward: folded noise about its mean.
@@ -67,8 +80,8 @@ fn within_cloud(point: vec3<f32>, footprint: f32) -> f32 {
     if aside > CLOUDS_NEAR {
         return heap;
     }
-    // Bases are flat, and sides fade where they end.
-    let puffs = smoothstep(0.0, 0.25, share) * (1.0 - smoothstep(0.5 * CLOUDS_NEAR, CLOUDS_NEAR, aside));
+    // Bases are flatter, and sides fade where they end.
+    let puffs = smoothstep(CLOUDS_FLATTER.x, CLOUDS_FLATTER.y, share) * (1.0 - smoothstep(0.5 * CLOUDS_NEAR, CLOUDS_NEAR, aside));
     let puff = cloud_puff(vec3<f32>(point.xy, up), footprint);
     // Far outside a heap they would be crumbs that float alone.
     let held = select(1.0, smoothstep(CLOUDS_HELD.x, CLOUDS_HELD.y, heap), puff > 0.0);
@@ -104,9 +117,10 @@ fn inside_cloud(before: f32, here: f32) -> vec2<f32> {
 // The light that a point of a heap sends along a direction.
 fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
     let level = clamp((at.z - scene.cloud_height.x) / (CLOUDS_THICK * scene.scale.y), 0.0, 1.0);
+    let under = smoothstep(0.0, CLOUDS_UNDER, heap_of_cloud(at.xy, CLOUDS_BROADEST, footprint));
     let taken = cloud_taken(at, footprint, CLOUDS_SUNWARD.x, CLOUDS_TAKEN.x)
         + cloud_taken(at, footprint, CLOUDS_SUNWARD.y, CLOUDS_TAKEN.y)
-        + CLOUDS_BASE.x * (1.0 - smoothstep(0.0, CLOUDS_BASE.y, level));
+        + CLOUDS_BASE.x * under * (1.0 - smoothstep(0.0, CLOUDS_BASE.y, level));
     let glow = CLOUDS_GLOW * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
     return scene.sunlight.xyz * (CLOUDS_THROUGH + CLOUDS_SUNNY * exp(-taken) + glow)
         + scene.clouds.xyz * ((0.45 + 0.5 * level) / PI);
@@ -160,7 +174,8 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, bl
             slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
         }
     }
-    return vec4<f32>(sum, left);
+    let veils = veils_before(start, direction, blur);
+    return vec4<f32>(sum + left * veils.xyz, left * veils.w);
 }
 
 // Share of the sunlight that comes through them to a point.
@@ -169,7 +184,7 @@ fn through_clouds(point: vec3<f32>) -> f32 {
         return 1.0;
     }
     let reach = max(scene.cloud_height.x - point.z, 0.0) / max(scene.sun.z, 0.05);
-    let within = heap_of_cloud(point.xy + scene.sun.xy * reach, 0.0, CLOUDS_SOFT);
+    let within = heap_of_cloud(point.xy + scene.sun.xy * reach, CLOUDS_BROADEST, CLOUDS_SOFT);
     let density = smoothstep(0.0, 0.34, within);
     return select(1.0, 1.0 - CLOUDS_SHADOW * density, scene.clouds.w > 0.0);
 }

@@ -25,6 +25,13 @@ const BLOCKY: f32 = 0.16;
 /// What blocks of a material and the cracks between them add to its tone.
 const BLOCKS: [f32; 2] = [0.35, 0.55];
 
+/// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
+const BEDDED: [f32; 2] = [0.5, 1.2];
+
+/// By how many cells times their noise materials reach into each other, on gentle ground and on such faces, where they are beds
+/// with edges: those of a landscape fade into each other over a cell or two.
+const MINGLED: [f32; 2] = [3.0, 0.3];
+
 /// Slope that bumps of bare rock come near: its faces are sharp.
 const STEEPEST_ROCK: f32 = 1.3;
 
@@ -79,7 +86,7 @@ impl Cover {
             return SurfaceSample { albedo: albedo.map(|c| c.clamp(0.01, 0.9)), bump: [0.0; 2] };
         }
         let texture = Texture::at(spot, self.limits.cell);
-        let skin = match self.sites.material(spot.place) {
+        let skin = match self.sites.material(self.mingled(spot, &texture)) {
             Some(albedo) => self.of_material(spot, albedo, &texture),
             None => self.natural(spot, &texture),
         };
@@ -198,9 +205,15 @@ impl Cover {
         })
     }
 
+    /// The place of which the material lies at a point: materials mingle along their borders.
+    fn mingled(&self, spot: &SurfacePoint, texture: &Texture) -> [f32; 2] {
+        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
+        let cells = self.sites.fineness * (MINGLED[0] + (MINGLED[1] - MINGLED[0]) * steep);
+        [spot.place[0] + cells * texture.fine.value, spot.place[1] + cells * texture.crags.height]
+    }
+
     fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
-        // From 27° on a face shows its beds, at 50° whole.
-        let steep = ramp(spot.slope, 0.5, 1.2);
+        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
         let thick = 0.03 * self.limits.relief.max(1e-3);
         let fold = 0.8 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);

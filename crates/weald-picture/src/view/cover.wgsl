@@ -39,6 +39,11 @@ const UPRIGHT = 0.4;
 // What blocks of a material and the cracks between them add to its tone.
 const BLOCKS = vec2<f32>(0.35, 0.55);
 
+// Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
+// reach into each other, on gentle ground and on such faces.
+const BEDDED = vec2<f32>(0.5, 1.2);
+const MINGLED = vec2<f32>(3.0, 0.3);
+
 // Slope that bumps of bare rock come near.
 const STEEPEST_ROCK = 1.3;
 
@@ -181,17 +186,27 @@ fn wood_at(spot: SurfacePoint) -> vec2<f32> {
     return vec2<f32>(density, share_of_conifers(spot.point.z));
 }
 
+// Colour of the material at a place.
+fn material_at(place: vec2<f32>) -> vec3<f32> {
+    return clamp(smooth_at(materials, place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
+}
+
+// The place of which the material lies at a point: materials mingle along their borders.
+fn mingled(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
+    let cells = mix(MINGLED.x, MINGLED.y, ramp(spot.slope, BEDDED.x, BEDDED.y));
+    return spot.place + cells * scene.scale.w / scene.grid.zw * vec2<f32>(texture.fine.value, texture.crags.height);
+}
+
 // Colour and roughness of a point.
 fn cover_at(spot: SurfacePoint) -> SurfaceSample {
-    let coloured = clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
     if is_above(scene.has.z, 1.0, spot.footprint) {
         // The values of a layer, which nothing of the ground's own may hide.
-        return SurfaceSample(min(coloured, vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
+        return SurfaceSample(min(material_at(spot.place), vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
     }
     let texture = texture_of(spot);
     var skin: SurfaceSample;
     if is_above(scene.has.z, 0.0, spot.footprint) {
-        skin = of_material(spot, coloured, texture);
+        skin = of_material(spot, material_at(mingled(spot, texture)), texture);
     } else {
         skin = natural(spot, texture);
     }
@@ -372,7 +387,7 @@ fn scattered(spot: SurfacePoint, texture: Texture, steep: f32) -> Canopy {
 }
 
 fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
-    let steep = ramp(spot.slope, 0.5, 1.2);
+    let steep = ramp(spot.slope, BEDDED.x, BEDDED.y);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad + torn(texture), false);
     let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;

@@ -46,6 +46,8 @@ pub(super) struct Sites {
     pub(super) materials: Option<[Surface; 3]>,
     mean: Option<Linear>,
     is_draped: bool,
+    /// Cells in which places are counted, along one of the landscape.
+    pub(super) fineness: f32,
 }
 
 impl Sites {
@@ -85,6 +87,7 @@ impl Sites {
             mean: colours.as_deref().map(mean),
             materials: colours.map(|cells| [0, 1, 2].map(|c| channel(&cells, c))),
             is_draped: matches!(coloured_by, ColouredBy::Drape(_)),
+            fineness: 1.0,
         })
     }
 
@@ -96,6 +99,7 @@ impl Sites {
             soil: self.soil.on_finer(fineness),
             fallen: self.fallen.on_finer(fineness),
             materials: self.materials.map(|channels| channels.map(|channel| channel.on_finer(fineness))),
+            fineness: self.fineness * fineness as f32,
             ..self
         }
     }

@@ -1,6 +1,7 @@
 //! What a perspective view shows, judged from its pixels.
 
 use weald_core::grid::Mask;
+use weald_core::material::Material;
 use weald_core::parameter::{Nested, Places};
 use weald_core::{Domain, Field, Landscape, Size};
 use weald_picture::{Drape, GroundColour, Image, Picture, Scale, View};
@@ -153,6 +154,32 @@ fn materials_colour_the_ground_where_that_is_wished() {
     let named = draw(&above(), &landscape);
     let natural = draw(&View { ground: Some(GroundColour::Natural), ..above() }, &landscape);
     assert!(red(&named) > 5000 && red(&natural) < 500, "{} and {} red pixels", red(&named), red(&natural));
+}
+
+#[test]
+fn materials_reach_into_each_other_along_their_borders_and_not_farther() {
+    // A gentle slope, over which red begins at column 20 and blue at column 40.
+    let size = Size::square(64).expect("legal");
+    let mut landscape = Landscape::new(Domain::new(size, 20.0));
+    landscape.insert("height", "m", Field::from_function(size, |x, _| 2.0 * x as f32));
+    let stratum = |name: &str, bottom, colour| Material {
+        name: name.to_owned(),
+        bottom: Some(bottom),
+        colour,
+        ..Material::built_in("clay").expect("built in")
+    };
+    landscape.materials.truncate(1);
+    landscape.materials.push(stratum("red", 40.0, [0.8, 0.05, 0.05]));
+    landscape.materials.push(stratum("blue", 80.0, [0.05, 0.05, 0.8]));
+    let image = draw(&View { width: 240, height: 240, water: false, ..above() }, &landscape);
+    let is_blue = |x: &usize, y: usize| matches!(image.pixel(*x, y), [r, _, b] if b > r);
+    let borders: Vec<usize> =
+        (60..180).map(|y| (100..200).find(|x| is_blue(x, y)).expect("blue in the east")).collect();
+    let [first, last] = [borders.iter().min(), borders.iter().max()].map(|border| *border.expect("many"));
+    // Some three pixels are a cell.
+    assert!((5..20).contains(&(last - first)), "borders from column {first} to {last}");
+    let pure = |x: usize, blue: bool| (60..180).all(|y| is_blue(&x, y) == blue);
+    assert!(pure(first - 8, false) && pure(last + 12, true), "{first} to {last}");
 }
 
 #[test]
