@@ -13,14 +13,14 @@ use weald_core::grain::Octaves;
 /// along a direction, and across it they are bent by noise.
 const VEILS_ABOVE: f32 = 6000.0;
 const VEILS: f32 = 3200.0;
-const VEILS_LONG: f32 = 5.0;
-const VEIL_OCTAVES: (u32, f32) = (6, 0.62);
+const VEILS_LONG: f32 = 6.0;
+const VEIL_OCTAVES: (u32, f32) = (7, 0.68);
 const VEILED: [f32; 2] = [0.02, 0.75];
-const VEILS_HIDE: f32 = 0.33;
+const VEILS_HIDE: f32 = 0.26;
 const VEILS_SEND: f32 = 0.2;
 const VEILS_LOST: f32 = 60_000.0;
 const VEIL_WIND: [f32; 2] = [0.8, 0.6];
-const VEILS_BENT: f32 = 0.8;
+const VEILS_BENT: f32 = 0.4;
 
 impl Clouds {
     /// The radiance of the sky in a direction above the horizon, with veils of ice before it.

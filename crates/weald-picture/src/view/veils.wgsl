@@ -2,15 +2,15 @@
 
 const VEILS_ABOVE = 6000.0;
 const VEILS = 3200.0;
-const VEILS_LONG = 5.0;
-const VEIL_OCTAVES = 6u;
-const VEIL_GAIN = 0.62;
+const VEILS_LONG = 6.0;
+const VEIL_OCTAVES = 7u;
+const VEIL_GAIN = 0.68;
 const VEILED = vec2<f32>(0.02, 0.75);
-const VEILS_HIDE = 0.33;
+const VEILS_HIDE = 0.26;
 const VEILS_SEND = 0.2;
 const VEILS_LOST = 60000.0;
 const VEIL_WIND = vec2<f32>(0.8, 0.6);
-const VEILS_BENT = 0.8;
+const VEILS_BENT = 0.4;
 
 // The light of veils of ice in a direction above the horizon, and the share of the sky that is seen through them.
 fn veils_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32> {
