@@ -20,8 +20,8 @@ const MIRRORED_BLUR = 0.06;
 // Radians by which ripples that are too small to be seen throw rays apart.
 const MIRRORED_SPREAD = 0.08;
 
-// How much of the length to which a slant look draws out a pixel on water counts for its ripples: with half of it, as for what
-// lies on ground, ripples of lakes at a distance are streaks one row of pixels high.
+// The power of the length to which a slant look draws out a pixel on water that counts as its footprint, for ripples and foam: with
+// a half, the mean of length and width, ripples of lakes at a distance are streaks one row of pixels high.
 const LENGTHENED = 0.75;
 
 // Metres over which ripples draw out what water mirrors, for each metre that it is away.

@@ -46,7 +46,7 @@ pub(super) struct Sites {
     pub(super) materials: Option<[Surface; 3]>,
     mean: Option<Linear>,
     is_draped: bool,
-    /// Cells in which places are counted, along one of the landscape.
+    /// How many of the cells in which places are counted lie along one of the landscape.
     pub(super) fineness: f32,
 }
 

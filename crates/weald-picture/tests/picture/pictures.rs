@@ -243,15 +243,19 @@ fn every_kind_of_picture_documents_all_its_parameters() {
     }
 }
 
-/// A slope from 0 m in the west to 630 m in the east, with two strata, pure red from 200 m and pure blue from 400 m.
-fn strata() -> Landscape {
-    let mut landscape = ground(64, 64, |x, _| 10.0 * x as f32);
-    let stratum = |name: &str, bottom, colour| Material {
+/// A stratum that begins at such a height in metres.
+pub(crate) fn stratum(name: &str, bottom: f64, colour: [f32; 3]) -> Material {
+    Material {
         name: name.to_owned(),
         bottom: Some(bottom),
         colour,
         ..Material::built_in("clay").expect("built in")
-    };
+    }
+}
+
+/// A slope from 0 m in the west to 630 m in the east, with two strata, pure red from 200 m and pure blue from 400 m.
+fn strata() -> Landscape {
+    let mut landscape = ground(64, 64, |x, _| 10.0 * x as f32);
     landscape.materials.truncate(1);
     landscape.materials.push(stratum("red", 200.0, [1.0, 0.0, 0.0]));
     landscape.materials.push(stratum("blue", 400.0, [0.0, 0.0, 1.0]));

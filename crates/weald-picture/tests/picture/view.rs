@@ -1,10 +1,11 @@
 //! What a perspective view shows, judged from its pixels.
 
 use weald_core::grid::Mask;
-use weald_core::material::Material;
 use weald_core::parameter::{Nested, Places};
 use weald_core::{Domain, Field, Landscape, Size};
 use weald_picture::{Drape, GroundColour, Image, Picture, Scale, View};
+
+use crate::pictures::stratum;
 
 /// A mountain beside a lake, 64 cells of 20 m.
 fn country() -> Landscape {
@@ -162,12 +163,6 @@ fn materials_reach_into_each_other_along_their_borders_and_not_farther() {
     let size = Size::square(64).expect("legal");
     let mut landscape = Landscape::new(Domain::new(size, 20.0));
     landscape.insert("height", "m", Field::from_function(size, |x, _| 2.0 * x as f32));
-    let stratum = |name: &str, bottom, colour| Material {
-        name: name.to_owned(),
-        bottom: Some(bottom),
-        colour,
-        ..Material::built_in("clay").expect("built in")
-    };
     landscape.materials.truncate(1);
     landscape.materials.push(stratum("red", 40.0, [0.8, 0.05, 0.05]));
     landscape.materials.push(stratum("blue", 80.0, [0.05, 0.05, 0.8]));
