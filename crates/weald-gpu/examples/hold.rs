@@ -21,8 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut session = Session::open(recipe, options, &Silent)?;
     let (view, start) = (View::default(), session.history().simulation().start().clone());
     let scene = LitScene::new(&view, &start)?.to_follow();
-    let mut renderer = Renderer::new(&gpu, &scene, RenderOptions { size: [480, 270], samples: 1 })?;
-    renderer.plant(&scene, &start)?;
+    let options = RenderOptions { size: [480, 270], samples: 1 };
+    let mut renderer = Renderer::planted(&gpu, (&scene, &start), options)?;
     let cameras = [scene.camera(), scene.camera().turned([1280.0, -1280.0, 200.0], 60.0)];
     let mut screens = [renderer.screen([480, 270])?, renderer.screen([320, 320])?];
     let frame = |renderer: &mut Renderer, screens: &mut [Screen; 2]| {

@@ -48,8 +48,8 @@ impl Stage {
         let Order { landscape, view, number, is_live, .. } = order;
         let scene = LitScene::new(view, landscape)?;
         let scene = if *is_live { scene.to_follow() } else { scene };
-        let mut renderer = Renderer::new(gpu, &scene, RenderOptions { size: [64, 64], samples: 1 })?;
-        renderer.plant(&scene, landscape)?;
+        let options = RenderOptions { size: [64, 64], samples: 1 };
+        let mut renderer = Renderer::planted(gpu, (&scene, landscape), options)?;
         let live = is_live.then(|| Live::new(gpu, landscape.domain.size)).transpose()?;
         let screen = renderer.screen([64, 64])?;
         let mut stage = Self { scene, renderer, live, screen, number: *number, draws_water: view.water };

@@ -23,7 +23,7 @@ use weald_land::generate::diamond_square::DiamondSquare;
 /// Seconds that one run should take: some submissions.
 const SECONDS: f64 = 0.5;
 
-/// Steps of the run that tells how many steps take that long, and most steps of a run.
+/// Steps of the first run that tells how many steps take that long, and most steps of a run.
 const STEPS: [u32; 2] = [4, 5000];
 
 /// Metres of each material above the bedrock.
@@ -94,17 +94,28 @@ fn rate(
         return Ok(None);
     }
     let engine = Engine::Device(Arc::clone(device));
-    let seconds_of = |iterations| {
-        let step = Hydraulic { iterations, ..step.clone() };
-        Ok::<_, Error>(step.seconds(landscape, &engine)? / f64::from(iterations))
-    };
-    let [few, most] = STEPS;
-    let iterations = ((SECONDS / seconds_of(few)?) as u32).clamp(few, most);
+    let seconds_of = |iterations| Hydraulic { iterations, ..step.clone() }.seconds(landscape, &engine);
+    let iterations = enough(seconds_of)?;
     let mut seconds = f64::INFINITY;
     for _ in 0..RUNS {
-        seconds = seconds.min(seconds_of(iterations)?);
+        seconds = seconds.min(seconds_of(iterations)? / f64::from(iterations));
     }
     let millions = size.cells() as f64 / seconds / 1e6;
     let beside = Baseline::Copies { bytes: program.bytes_per_cell_step(), bandwidth };
     Ok(Some(Rate { name: name.to_owned(), size, threads: None, millions, beside }))
+}
+
+/// Steps of a run that takes long enough. A device's submissions begin small and grow, so that a few steps tell too
+/// little of many: each run tells of one at most so many times as long.
+fn enough(seconds_of: impl Fn(u32) -> Result<f64, Error>) -> Result<u32, Error> {
+    const GROWTH: f64 = 8.0;
+    let [few, most] = STEPS;
+    let mut iterations = few;
+    loop {
+        let wanted = SECONDS / seconds_of(iterations)?;
+        if wanted < 2.0 || iterations == most {
+            return Ok(iterations);
+        }
+        iterations = ((f64::from(iterations) * wanted.min(GROWTH)) as u32).min(most);
+    }
 }

@@ -5,6 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
+
+use rayon::prelude::*;
 use web_time::Instant;
 
 use weald::Error;
@@ -180,6 +182,20 @@ impl Context {
         work: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.attempt(what, work).inspect_err(|_| self.known.clear())
+    }
+
+    /// Does things side by side on the threads of this pool, within [`Context::attempt_to_compile`]: errors of wgpu go to
+    /// the thread that makes them.
+    pub(crate) fn side_by_side<T: Send>(
+        &self,
+        what: &str,
+        works: &[Box<dyn Fn() -> T + Sync + '_>],
+    ) -> Result<Vec<T>, Error> {
+        let done = works.par_iter().map(|work| match self.caught(work) {
+            (done, None) => Ok(done),
+            (_, Some(error)) => Err(explain(what, &error, self.advice)),
+        });
+        done.collect()
     }
 
     /// Submits commands, for which can be waited.

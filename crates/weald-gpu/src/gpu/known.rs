@@ -43,18 +43,18 @@ impl Known {
     }
 }
 
+/// What is made is made without the lock: others are compiled meanwhile. Of two that were made of one key the first is kept.
 fn get_or_make<K, V>(known: &Mutex<HashMap<K, V>>, key: K, make: impl FnOnce(&K) -> V) -> V
 where
     K: Eq + std::hash::Hash,
     V: Clone,
 {
-    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(value) = known.get(&key) {
-        return value.clone();
-    }
-    let value = make(&key);
-    known.insert(key, value.clone());
-    value
+    let lock = || known.lock().unwrap_or_else(PoisonError::into_inner);
+    let there = lock().get(&key).cloned();
+    there.unwrap_or_else(|| {
+        let value = make(&key);
+        lock().entry(key).or_insert(value).clone()
+    })
 }
 
 fn clear<K, V>(known: &Mutex<HashMap<K, V>>) {

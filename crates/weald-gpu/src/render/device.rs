@@ -20,9 +20,8 @@ impl RenderDevice for Gpu {
 
     fn set_up<'a>(&self, request: &RenderRequest<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
         let size = [request.view.width, request.view.height];
-        let mut renderer = Renderer::new(self, request.scene, Options { size, samples: request.samples })?;
-        renderer.plant(request.scene, request.landscape)?;
-        Ok(Box::new(renderer))
+        let options = Options { size, samples: request.samples };
+        Ok(Box::new(Renderer::planted(self, (request.scene, request.landscape), options)?))
     }
 
     fn grass_rates(&self, most_sets: u32) -> Result<Vec<GrassRate>, Error> {

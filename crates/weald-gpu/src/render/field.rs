@@ -65,8 +65,7 @@ impl GrassField {
         let landscape = field(sets, has_pond)?;
         let view = View { width, height, field_of_view_deg: 50.0, ..View::default() };
         let scene = LitScene::new(&view, &landscape)?;
-        let mut renderer = Renderer::new(gpu, &scene, Options { size, samples: 4 })?;
-        renderer.plant(&scene, &landscape)?;
+        let renderer = Renderer::planted(gpu, (&scene, &landscape), Options { size, samples: 4 })?;
         Ok(Self { renderer, scene, side: side(sets) as f32 })
     }
 

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use weald::Error;
 use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
@@ -106,6 +107,15 @@ const FIRST_NEAR: u32 = 3;
 const FIRST_BEYOND: u32 = 11;
 const DETAIL_FROM: f32 = 0.30;
 
+/// The kinds that a light draws, behind edges or not, and those of them where nothing is close by.
+fn kinds_of(light: &Light, is_behind: bool) -> [Range<u32>; 2] {
+    let further = if is_behind { BEHIND_EDGE } else { 0 };
+    let kinds = light.kinds.start + further..light.kinds.end + further;
+    let first = if kinds.start >= FIRST_BEYOND { FIRST_BEYOND - 1 } else { 0 };
+    let far = kinds.start..kinds.end.min(first + FIRST_NEAR + further);
+    [kinds, far]
+}
+
 /// What a camera may see at all: what it does not see costs a look at each pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InSight {
@@ -144,26 +154,32 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn new(parts: Parts<'_>) -> Self {
+    /// Compiles all, that of light side by side: each takes seconds on some drivers.
+    pub(super) fn new(parts: Parts<'_>) -> Result<Self, Error> {
         let behind: &[bool] = if parts.samples > 1 { &[false, true] } else { &[false] };
         let around: &[Light] = if parts.has.horizon { &LIGHTS_BEYOND } else { &[] };
-        let lights = LIGHTS.iter().chain(around).flat_map(|light| {
-            behind.iter().map(|&is_behind| {
-                let further = if is_behind { BEHIND_EDGE } else { 0 };
-                let kinds = light.kinds.start + further..light.kinds.end + further;
-                let first = if kinds.start >= FIRST_BEYOND { FIRST_BEYOND - 1 } else { 0 };
-                let far = kinds.start..kinds.end.min(first + FIRST_NEAR + further);
-                (parts.light(light, is_behind), [kinds, far])
-            })
-        });
-        Self {
+        let lights: Vec<_> =
+            LIGHTS.iter().chain(around).flat_map(|light| behind.iter().map(move |&is| (light, is))).collect();
+        let mut works: Vec<Box<dyn Fn() -> RenderPipeline + Sync>> = vec![
+            Box::new(move || parts.sky(&BACKDROP[0])),
+            Box::new(move || parts.light(&BACKDROP[1], false)),
+        ];
+        works.extend(
+            lights
+                .iter()
+                .map(|&(light, is)| Box::new(move || parts.light(light, is)) as Box<dyn Fn() -> _ + Sync>),
+        );
+        let mut made = parts.context.side_by_side("making the pipelines of light", &works)?.into_iter();
+        let backdrop = [made.next(), made.next()].map(|made| made.expect("as many as were asked for"));
+        let kinds = lights.iter().map(|&(light, is_behind)| kinds_of(light, is_behind));
+        Ok(Self {
             depth: parts.depth("ground_vertex"),
             beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
             clouds: parts.has.clouds.then(|| parts.clouds()),
-            lights: lights.collect(),
-            backdrop: [parts.sky(&BACKDROP[0]), parts.light(&BACKDROP[1], false)],
-        }
+            lights: made.zip(kinds).collect(),
+            backdrop,
+        })
     }
 
     /// Draws the depths of all triangles.

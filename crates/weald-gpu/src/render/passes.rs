@@ -61,6 +61,8 @@ pub(super) struct Passes {
     module: ShaderModule,
     picks: (PipelineLayout, BindGroupLayout),
     samples: u32,
+    /// Whether grass stands on the ground.
+    pub(super) has_lawn: bool,
 }
 
 /// The pipelines of what throws shadows.
@@ -156,11 +158,11 @@ impl Passes {
                 has: SceneParts::of(scene),
                 has_lawn,
             };
-            Ok(Self::of(&maker, depths))
+            Self::of(&maker, depths)
         })
     }
 
-    fn of(maker: &Maker<'_>, depths: [BindGroupLayout; 2]) -> Self {
+    fn of(maker: &Maker<'_>, depths: [BindGroupLayout; 2]) -> Result<Self, Error> {
         let instances = |bytes, attributes| VertexBufferLayout {
             array_stride: bytes,
             step_mode: VertexStepMode::Instance,
@@ -177,7 +179,7 @@ impl Passes {
             let depth = (true, CompareFunction::Less);
             maker.caster(&Pipeline { name, buffers, depth })
         };
-        Self {
+        Ok(Self {
             ground: Ground::new(Parts {
                 context: maker.context,
                 module: &maker.module,
@@ -186,7 +188,7 @@ impl Passes {
                 samples: maker.samples,
                 has: maker.has,
                 has_lawn: maker.has_lawn,
-            }),
+            })?,
             depths,
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
@@ -199,7 +201,8 @@ impl Passes {
             module: maker.module.clone(),
             picks: maker.picks.clone(),
             samples: maker.samples,
-        }
+            has_lawn: maker.has_lawn,
+        })
     }
 
     /// The pipeline that says what is seen at places of a picture, and what it is bound to.

@@ -91,6 +91,25 @@ impl Renderer {
     /// [`Error::Limit`] for a size or number of samples that the device does not have, [`Error::Device`] where its
     /// memory does not suffice or it fails.
     pub fn new(gpu: &Gpu, scene: &LitScene, options: Options) -> Result<Self, Error> {
+        Self::with_lawn(gpu, scene, options, false)
+    }
+
+    /// Brings a scene to a device with what grows in its landscape: as [`Renderer::new`] and [`Renderer::plant`], but
+    /// that what draws the ground is compiled once alone where grass stands on it.
+    ///
+    /// # Errors
+    /// As of both.
+    pub fn planted(
+        gpu: &Gpu,
+        (scene, landscape): (&LitScene, &Landscape),
+        options: Options,
+    ) -> Result<Self, Error> {
+        let mut renderer = Self::with_lawn(gpu, scene, options, has_lawn(landscape))?;
+        renderer.plant(scene, landscape)?;
+        Ok(renderer)
+    }
+
+    fn with_lawn(gpu: &Gpu, scene: &LitScene, options: Options, has_lawn: bool) -> Result<Self, Error> {
         options.check(gpu)?;
         let source = scene.textures();
         let maps = Maps::new(gpu, scene, &source)?;
@@ -99,7 +118,7 @@ impl Renderer {
         let canopy = canopy::none(gpu)?;
         let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
-        let passes = Passes::new(gpu, scene, layouts, (options.samples, false))?;
+        let passes = Passes::new(gpu, scene, layouts, (options.samples, has_lawn))?;
         let film = ToneMapping::new(gpu, scene, &maps)?;
         let own = Arc::new(Onto::new(gpu, (&passes, &film), options, Arc::default())?);
         Ok(Self {
@@ -155,9 +174,10 @@ impl Renderer {
             self.canopy = canopy;
         }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade: &self.shadows.layout };
-        let has_lawn = landscape.all_meadows().next().is_some();
-        let samples = self.own.options.samples;
-        self.passes = Passes::new(&self.gpu, scene, layouts, (samples, has_lawn))?;
+        let (has_lawn, samples) = (has_lawn(landscape), self.own.options.samples);
+        if has_lawn != self.passes.has_lawn {
+            self.passes = Passes::new(&self.gpu, scene, layouts, (samples, has_lawn))?;
+        }
         let grown = (scene, landscape);
         self.grass = Grass::new(&self.gpu, grown, layouts, samples)?;
         self.plants = Plants::new(&self.gpu, grown, layouts, samples)?;
@@ -331,4 +351,9 @@ impl Renderer {
         self.terrain.prepare(&mut into, camera, self.own.options.size, (camera.eye, 0.0))?;
         Ok(self.terrain.triangles())
     }
+}
+
+/// Whether grass stands on the ground of a landscape.
+fn has_lawn(landscape: &Landscape) -> bool {
+    landscape.all_meadows().next().is_some()
 }

@@ -5,21 +5,24 @@ use std::sync::Arc;
 
 use crate::common::{run_on, worst_difference};
 use crate::processes::{masked, processes, whole, whole_models, wide};
+use crate::rounding::{self, Bounds};
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::Program;
 use weald::engine::{Engine, Job, Unwatched};
 use weald::error::{DeviceError, DeviceErrorKind};
 use weald::step::{Outcome, Step};
-use weald::{Error, Landscape, Size};
+use weald::{Error, Field, Landscape, Size};
 use weald_gpu::Gpu;
 
-/// Metres that a device may differ by from the CPU in its worst cell, and on average. What rests on rounding is
+/// Metres that software may differ by from the CPU in its worst cell, and on average. What rests on rounding is
 /// rounded on both alike, but a device's quotients and roots may be some units off in the last place, and its
 /// compiler may fuse a product with a sum. A last place is 2e-6 m on ground 25 m high; three of them in the worst
 /// cell, and a sixth of one on average, were seen. Where such a digit decides whether water flows, a cell differs
 /// by more: a tenth of a millimetre leaves room for it.
-const WORST: f32 = 1e-4;
-const MEAN: f32 = 2e-6;
+const LEAST: Bounds = Bounds { worst: 1e-4, mean: 2e-6 };
+
+/// The same of the terms of a budget, as shares of them.
+const BUDGET: Bounds = Bounds { worst: 1e-4, mean: 1e-4 };
 
 /// An engine on so many threads.
 type Named = (String, Engine, usize);
@@ -59,12 +62,11 @@ fn agree_on(ground: &Landscape, processes: Vec<Box<dyn Step>>, tiles: DeviceTile
         }
         if let Some(gpu) = crate::programs::gpu() {
             let (got, sums) = run(&*step, ground, &Engine::Device(Arc::new(gpu.clone())), 1);
-            assert_near(&*step, &expected, &got);
-            assert_near_budget(&outcome, &sums, 1e-4);
+            assert_near(&*step, ground, [(&expected, &outcome), (&got, &sums)], &gpu);
             if tiles == DeviceTiles::Yes {
-                let (tiles, sums) = run_in_tiles(&*step, ground, &gpu);
+                let (tiles, sums_of_tiles) = run_in_tiles(&*step, ground, &gpu);
                 assert_same_bits(&*step, &got, &tiles, "tiles of a device");
-                assert_near_budget(&outcome, &sums, 1e-4);
+                assert_near_budget(&sums, &sums_of_tiles, 1e-4);
             }
         }
     }
@@ -145,25 +147,46 @@ fn assert_same_bits(step: &dyn Step, expected: &Landscape, got: &Landscape, engi
     }
 }
 
-fn assert_near(step: &dyn Step, expected: &Landscape, got: &Landscape) {
-    for ((name, expected), (_, got)) in expected.layers().zip(got.layers()) {
-        let pairs = expected.field.values().iter().zip(got.field.values());
-        let mean = pairs.map(|(a, b)| (a - b).abs()).sum::<f32>() / got.field.values().len() as f32;
-        let worst = worst_difference(&expected.field, &got.field);
-        assert!(worst < WORST, "the device's `{name}` differs by up to {worst} m: {step:?}");
-        assert!(mean < MEAN, "the device's `{name}` differs by {mean} m on average: {step:?}");
+/// All layers and the budget of what a device makes.
+fn assert_near(step: &dyn Step, ground: &Landscape, [expected, got]: [(&Landscape, &Outcome); 2], gpu: &Gpu) {
+    let of = budget(expected.1);
+    let fields = |(land, outcome): (&Landscape, &Outcome)| {
+        let layers = land.layers().map(|(_, layer)| layer.field.clone());
+        layers.chain([shares(budget(outcome), of)]).collect::<Vec<_>>()
+    };
+    let (names, expected, got) = (expected.0.layers().map(|(name, _)| name), fields(expected), fields(got));
+    let bounds = rounding::bounds(
+        gpu,
+        |at| if at + 1 < expected.len() { LEAST } else { BUDGET },
+        (ground, &expected),
+        &|ground| {
+            let (land, outcome) = run(step, ground, &Engine::Cpu, 1);
+            fields((&land, &outcome))
+        },
+    );
+    for (name, ((expected, got), bound)) in names.chain(["budget"]).zip(expected.iter().zip(&got).zip(bounds))
+    {
+        let seen = Bounds::between(expected, got);
+        assert!(seen.within(bound), "the device's `{name}` has {seen:?} with a bound of {bound:?}: {step:?}");
     }
+}
+
+/// Numbers as shares of others, or of one where those are less.
+fn shares(numbers: [f64; 5], of: [f64; 5]) -> Field {
+    let share = |x: usize, _| (numbers[x] / of[x].abs().max(1.0)) as f32;
+    Field::from_function(Size { columns: numbers.len(), rows: 1 }, share)
+}
+
+/// Water that came, went and is there; solid that went and is ground.
+fn budget(outcome: &Outcome) -> [f64; 5] {
+    let budget = outcome.budget.expect("a simulation has a budget");
+    let (water, solid) = (budget.water, budget.solid);
+    [water.incoming, water.outgoing, water.stored, solid.outgoing, solid.ground]
 }
 
 /// Tiles add the same numbers in another order, in 64 bits; devices theirs in pairs of 32 bits.
 fn assert_near_budget(expected: &Outcome, got: &Outcome, share: f64) {
-    let (Some(expected), Some(got)) = (expected.budget, got.budget) else {
-        panic!("a simulation has a budget")
-    };
-    let near = |a: f64, b: f64| (a - b).abs() <= share * a.abs().max(1.0);
-    assert!(near(expected.water.incoming, got.water.incoming), "{expected:?} {got:?}");
-    assert!(near(expected.water.outgoing, got.water.outgoing), "{expected:?} {got:?}");
-    assert!(near(expected.water.stored, got.water.stored), "{expected:?} {got:?}");
-    assert!(near(expected.solid.outgoing, got.solid.outgoing), "{expected:?} {got:?}");
-    assert!(near(expected.solid.ground, got.solid.ground), "{expected:?} {got:?}");
+    for (a, b) in budget(expected).into_iter().zip(budget(got)) {
+        assert!((a - b).abs() <= share * a.abs().max(1.0), "{expected:?} {got:?}");
+    }
 }

@@ -21,6 +21,7 @@ mod plants;
 mod processes;
 mod programs;
 mod render;
+mod rounding;
 mod scenes;
 mod sessions;
 mod suspended;

@@ -312,6 +312,22 @@ fn grass_stands_around_the_camera_thins_out_and_sways() {
 }
 
 #[test]
+fn what_is_made_with_its_plants_draws_what_is_planted_later() {
+    let Some(gpu) = gpu() else { return };
+    for (landscape, grows) in [(meadow(), true), (mountains(), false)] {
+        let scene = LitScene::new(&view(), &landscape).expect("a scene");
+        let camera = above(&scene, [60.0, 70.0], 1.5, 12.0, 0.0);
+        let mut later = renderer(&gpu, &scene, 4);
+        let bare = later.render(&camera).expect("drawn");
+        later.plant(&scene, &landscape).expect("planted");
+        let mut planted = Renderer::planted(&gpu, (&scene, &landscape), options(4)).expect("made");
+        let drawn = planted.render(&camera).expect("drawn");
+        assert_eq!(drawn, later.render(&camera).expect("drawn"));
+        assert_eq!(drawn != bare, grows, "plants are seen where they grow");
+    }
+}
+
+#[test]
 fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
     let Some(gpu) = gpu() else { return };
     for landscape in [lakes(), meadow()] {
