@@ -145,27 +145,52 @@ pub fn measure(input: &NetworkInput<'_>) -> NetworkMeasures {
     let (height, depth) = (in_cells(input.ground), in_cells(input.depth));
     let ground = Ground { size, valid: input.valid, height, depth };
     let lakes = ground.lakes();
-    let drainage = Drainage::new(&ground, &lakes);
-    let carries = discharge::effective_areas(input);
-    let river: Vec<bool> =
-        carries.iter().zip(&lakes).map(|(&area, lake)| area >= CHANNEL_AREA && !lake).collect();
-    let carries: Vec<f64> = ground.cells().map(|cell| carries[cell]).collect();
-    let valley = valleys::valleys(&ground);
-    let channels = strahler::channels(&drainage);
+    // Each measure is one thread's work; those that need the drainage wait for it, the others do not.
+    let of_ground = || {
+        rayon::join(
+            || drains::draining_share(&ground, &lakes),
+            || (valleys::valleys(&ground), drains::pits(&ground), transects::valley_form(&ground)),
+        )
+    };
+    let of_drainage = || {
+        let drainage = Drainage::new(&ground, &lakes);
+        rayon::join(
+            || {
+                (
+                    strahler::channels(&drainage),
+                    slope_area::theta(&drainage),
+                    hack::exponent_of_length(&drainage),
+                )
+            },
+            || input.before.map(|before| carve::carve(&ground, &in_cells(before), &drainage)),
+        )
+    };
+    let of_flow = || {
+        let carries = discharge::effective_areas(input);
+        let is_river = |(&area, lake): (&f64, &bool)| area >= CHANNEL_AREA && !lake;
+        let river: Vec<bool> = carries.iter().zip(&lakes).map(is_river).collect();
+        let carries: Vec<f64> = ground.cells().map(|cell| carries[cell]).collect();
+        let river_width = river_width::river_width(size, &river);
+        (share_of_channels(&carries), river_width, discharge::gini(carries))
+    };
+    let (
+        ((drains, (valley, pits, valleys)), (chan, river_width, flux_gini)),
+        ((channels, theta, hack), carve),
+    ) = rayon::join(|| rayon::join(of_ground, of_flow), of_drainage);
     NetworkMeasures {
-        chan: share_of_channels(&carries),
-        river_width: river_width::river_width(size, &river),
+        chan,
+        river_width,
         reach: valley.reach,
         valley_largest: valley.largest,
-        drains: drains::draining_share(&ground, &lakes),
-        pits: drains::pits(&ground),
+        drains,
+        pits,
         heads: channels.heads,
         strahler: channels.order,
-        theta: slope_area::theta(&drainage),
-        hack: hack::exponent_of_length(&drainage),
-        flux_gini: discharge::gini(carries),
-        valleys: transects::valley_form(&ground),
-        carve: input.before.map(|before| carve::carve(&ground, &in_cells(before), &drainage)),
+        theta,
+        hack,
+        flux_gini,
+        valleys,
+        carve,
     }
 }
 
