@@ -44,25 +44,26 @@ impl Gpu {
         let by_command = self.copies_a_second(|encoder| {
             encoder.copy_buffer_to_buffer(&from.buffer, 0, &into.buffer, 0, bytes);
         })?;
-        let entries = [true, false]
-            .map(|read_only| BufferBindingType::Storage { read_only })
-            .into_iter()
-            .zip(0..)
-            .map(|(kind, binding)| entry(binding, kind, false));
-        let entries: Vec<_> = entries.collect();
-        let pipeline = self.context.attempt("compiling a copy", || {
-            Ok(Pipeline::compile(self, "copies", include_str!("copies.wgsl"), &entries))
-        })?;
-        let bound = [(0, from.buffer.as_entire_binding()), (1, into.buffer.as_entire_binding())];
-        let bound = pipeline.bind(self, bound.into())?;
-        let groups = bytes.div_ceil(BYTES_AT_ONCE * GROUP).min(GROUPS) as u32;
-        let by_pass = self.copies_a_second(|encoder| {
+        Ok(2.0 * bytes as f64 * by_command.max(self.copies_by_pass([&from, &into])?))
+    }
+
+    /// How often a second a compute pass copies one buffer over another.
+    fn copies_by_pass(&self, [from, into]: [&Store; 2]) -> Result<f64, Error> {
+        let storage = |read_only| BufferBindingType::Storage { read_only };
+        let entries = [entry(0, storage(true), false), entry(1, storage(false), false)];
+        let shader = include_str!("copies.wgsl");
+        let compile = || Ok(Pipeline::compile(self, "copies", shader, &entries));
+        let pipeline = self.context.attempt("compiling a copy", compile)?;
+        let stores = [(0, from), (1, into)];
+        let bindings = stores.map(|(binding, store)| (binding, store.buffer.as_entire_binding()));
+        let bound = pipeline.bind(self, bindings.into())?;
+        let groups = from.buffer.size().div_ceil(BYTES_AT_ONCE * GROUP).min(GROUPS) as u32;
+        self.copies_a_second(|encoder| {
             let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
             pass.set_pipeline(&pipeline.pipeline);
             pass.set_bind_group(0, &bound, &[]);
             pass.dispatch_workgroups(groups, 1, 1);
-        })?;
-        Ok(2.0 * bytes as f64 * by_command.max(by_pass))
+        })
     }
 
     /// How often a second this is done.

@@ -16,7 +16,7 @@ use std::collections::BinaryHeap;
 use rayon::prelude::*;
 use weald_core::grid::Size;
 
-/// No cell waits.
+/// No cell, or no level yet.
 const NONE: u32 = u32::MAX;
 
 /// Where a cell's water goes.
