@@ -53,7 +53,6 @@ mod trees;
 mod turf;
 mod twin;
 mod vector;
-mod veils;
 mod water;
 mod wooded;
 mod woods;

@@ -14,11 +14,11 @@ const BENT: [f32; 2] = [0.5, 0.8];
 
 /// Share of its blocks that massive rock shows, and values of the broad noise between which rock becomes broken: no face has joints
 /// of one pitch all over.
-const MASSIVE: f32 = 0.3;
+const MASSIVE: f32 = 0.5;
 const BROKEN: [f32; 2] = [-0.25, 0.35];
 
 /// Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
-const FACETS: f32 = 0.36;
+const FACETS: f32 = 0.55;
 const UPRIGHT: f32 = 0.4;
 
 /// Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how uneven a beach is, by patches and by detail; and what is worn
@@ -43,7 +43,7 @@ impl Cover {
         let long = 1.0 / (1.0 + spot.slope * spot.slope).sqrt();
         let found = fractures(&Face {
             place: [x + BENT[0] * bend * fine, y + BENT[1] * bend * craggy],
-            level: z + if dips { dip([x, y]) } else { 0.0 } + thickness * self.rock_fold(texture),
+            level: z + if dips { dip([x, y]) + thickness * self.rock_fold(texture) } else { 0.0 },
             normal: [long * spot.slope * spot.fall[0], long * spot.slope * spot.fall[1], long],
             thickness,
             footprint: spot.footprint,
@@ -72,15 +72,15 @@ impl Cover {
         let [grey, dark, warm] = self.palette.rock;
         let warmth = 0.4 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad + 0.3 * blocks.tone;
         let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let tone = 0.92 + 0.45 * bed.tone + 0.3 * thin.tone + 0.4 * texture.broad + 0.4 * blocks.tone;
+        let tone = 0.92 + 0.45 * bed.tone + 0.55 * thin.tone + 0.4 * texture.broad + 0.6 * blocks.tone;
         let stone = scale(stone, tone.max(0.3));
         // A quarter of a smooth face is dark.
-        let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height
-            + 0.5 * bed.joint
-            + 0.3 * thin.joint
-            + 0.7 * blocks.crack;
-        let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
-        let rough = texture.rough(0.15, 1.7);
+        let cracks = 0.22 - 0.6 * texture.fine.value - 2.2 * texture.crags.height
+            + 0.7 * bed.joint
+            + 0.6 * thin.joint
+            + 1.1 * blocks.crack;
+        let ledge = 0.4 * bed.ledge + 0.3 * thin.ledge;
+        let rough = texture.rough(0.2, 2.6);
         let facets = Self::facets(spot);
         SurfaceSample {
             albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),

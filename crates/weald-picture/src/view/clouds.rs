@@ -4,7 +4,7 @@
 //! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
 //! the other, and at more between them where a side is near, without what is finer than the metres from one to the next: noise
 //! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far away pale as the sky
-//! does. Behind them are thin veils of ice. All numbers are chosen by eye.
+//! does. All numbers are chosen by eye.
 
 use super::sky::Sky;
 use super::solid_grain::solid_grain;
@@ -52,11 +52,11 @@ const BROADEST: f32 = 0.14;
 /// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, the mean of folded
 /// noise, how near to a side puffs are looked for, and between which noise of heaps they stand out.
 const PUFFS: f32 = 800.0;
-const PUFF_OCTAVES: u32 = 5;
+const PUFF_OCTAVES: u32 = 7;
 const PUFF_GAIN: f32 = 0.72;
 const PUFF_MEAN: f32 = 0.2;
 const NEAR: f32 = 0.45;
-const HELD: [f32; 2] = [-0.06, 0.16];
+const HELD: [f32; 2] = [-0.02, 0.2];
 const PUFF_SEED: u32 = 0x77;
 
 /// Shares of a heap's height between which it becomes puffed: its base is ragged, but less than its top.
@@ -183,7 +183,6 @@ impl Clouds {
         if direction[2] < 0.01 || from[2] >= self.height {
             return radiance;
         }
-        let radiance = self.veiled(sky, [from, direction, radiance], blur);
         let first = (self.height - from[2]) / direction[2];
         let [count, spacing] = self.levels(direction, [first, blur]);
         let dense = DENSE / (1.0 + SOFTER * blur);

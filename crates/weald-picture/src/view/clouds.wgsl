@@ -17,11 +17,11 @@ const CLOUDS_NARROWER = 0.42;
 const CLOUDS_ROUND = 0.24;
 const CLOUDS_BROADEST = 0.14;
 const CLOUDS_PUFFS = 800.0;
-const CLOUDS_PUFF_OCTAVES = 5u;
+const CLOUDS_PUFF_OCTAVES = 7u;
 const CLOUDS_PUFF_GAIN = 0.72;
 const CLOUDS_PUFF_MEAN = 0.2;
 const CLOUDS_NEAR = 0.45;
-const CLOUDS_HELD = vec2<f32>(-0.06, 0.16);
+const CLOUDS_HELD = vec2<f32>(-0.02, 0.2);
 const CLOUDS_PUFF_SEED = 0x77u;
 const CLOUDS_FLATTER = vec2<f32>(-0.15, 0.25);
 const CLOUDS_DENSE = 0.12;
@@ -174,8 +174,7 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, bl
             slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
         }
     }
-    let veils = veils_before(start, direction, blur);
-    return vec4<f32>(sum + left * veils.xyz, left * veils.w);
+    return vec4<f32>(sum, left);
 }
 
 // Share of the sunlight that comes through them to a point.

@@ -23,7 +23,7 @@ const STRAND: f32 = 0.66;
 const BLOCKY: f32 = 0.16;
 
 /// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS: [f32; 2] = [0.35, 0.55];
+const BLOCKS: [f32; 2] = [0.6, 1.3];
 
 /// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
 const BEDDED: [f32; 2] = [0.5, 1.2];
@@ -33,7 +33,7 @@ const BEDDED: [f32; 2] = [0.5, 1.2];
 const MINGLED: [f32; 2] = [3.0, 0.3];
 
 /// Slope that bumps of bare rock come near: its faces are sharp.
-const STEEPEST_ROCK: f32 = 1.3;
+const STEEPEST_ROCK: f32 = 1.9;
 
 /// Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share
 /// of crags it grows, its greatest share, and how wet ground is on which it becomes less.
@@ -215,19 +215,20 @@ impl Cover {
     fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
         let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
         let thick = 0.03 * self.limits.relief.max(1e-3);
-        let fold = 0.8 * texture.broad + texture.torn();
+        let fold = 0.3 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
-        let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
+        let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
         let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
-        let bedded = 0.75 * bed.tone + 0.5 * thin.tone - 0.35 * bed.joint - 0.2 * thin.joint;
+        let bedded = 0.9 * bed.tone + 1.1 * thin.tone - 0.7 * bed.joint - 0.6 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
         let (rough, ledge) =
-            (texture.rough(0.08, 0.14 + 2.14 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
+            (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
         let facets = steep * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
-        SurfaceSample { albedo: self.with_bushes(spot, texture, steep, [albedo, scale(albedo, tone)]), bump }
+        let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
+        self.with_bushes(spot, texture, steep, (albedo, &ground))
     }
 
     /// The bed of a lake or a river.

@@ -14,8 +14,12 @@ const OF_THE_SEA = vec2<f32>(0.3, 1.5);
 const UNEVEN = vec2<f32>(1.6, 1.1);
 const WASHED = 1.8;
 
+// What is between no woods and woods everywhere.
+const SPREAD = 2.8;
+const FEW = 0.1;
+
 // How densely lone trees stand before a wood.
-const LONE = 0.05;
+const LONE = 0.1;
 
 // Light that a strand sends back beside dry gravel.
 const STRAND = 0.66;
@@ -31,13 +35,13 @@ const RAGGED = vec2<f32>(0.12, 0.3);
 const BENT = vec2<f32>(0.5, 0.8);
 
 // Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
-const FACETS = 0.36;
-const MASSIVE = 0.3;
+const FACETS = 0.55;
+const MASSIVE = 0.5;
 const BROKEN = vec2<f32>(-0.25, 0.35);
 const UPRIGHT = 0.4;
 
 // What blocks of a material and the cracks between them add to its tone.
-const BLOCKS = vec2<f32>(0.35, 0.55);
+const BLOCKS = vec2<f32>(0.6, 1.3);
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
 // reach into each other, on gentle ground and on such faces.
@@ -45,7 +49,7 @@ const BEDDED = vec2<f32>(0.5, 1.2);
 const MINGLED = vec2<f32>(3.0, 0.3);
 
 // Slope that bumps of bare rock come near.
-const STEEPEST_ROCK = 1.3;
+const STEEPEST_ROCK = 1.9;
 
 // Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share of
 // crags it grows, its greatest share, and how wet ground is on which it becomes less.
@@ -79,6 +83,7 @@ const SCOURED = vec2<f32>(0.2, 0.6);
 const SMALLER = 1.1;
 const SCATTERED = 0.6;
 const BUSH = vec3<f32>(0.34, 0.42, 0.28);
+const BOULDER = vec3<f32>(1.25, 1.2, 1.15);
 
 // Light that needles and leaves send back beside that of a wood.
 const NEEDLES = vec3<f32>(0.66, 0.79, 0.95);
@@ -299,9 +304,11 @@ fn below_tree_line(height: f32) -> f32 {
 fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     let line = below_tree_line(spot.point.z);
     let steep = ramp(spot.slope / scene.limits.x, 0.95, 1.3);
-    let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -8.0, 0.8) - 0.4 * steep;
-    let density = max(ramp(wood, 0.02, 0.52), LONE * ramp(wood, -0.45, 0.1));
-    return density * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
+    let spread = SPREAD * (scene.woods.x - 0.5);
+    let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -8.0, 0.8) - 0.4 * steep + spread;
+    let density = max(ramp(wood, 0.02, 0.52), LONE * ramp(wood, -0.7, 0.1));
+    let few = min(scene.woods.x / FEW, 1.0);
+    return few * density * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
 }
 
 fn rock_thickness() -> f32 {
@@ -312,7 +319,7 @@ fn rock_thickness() -> f32 {
 fn rock_fractures(spot: SurfacePoint, texture: Texture, dips: bool) -> Fractures {
     let thickness = rock_thickness();
     let bend = BENT * min(scene.scale.x, thickness) * vec2<f32>(texture.fine.value, texture.crags.height);
-    let level = spot.point.z + select(0.0, bed_dip(spot.point.xy), dips) + thickness * rock_fold(texture);
+    let level = spot.point.z + select(0.0, bed_dip(spot.point.xy) + thickness * rock_fold(texture), dips);
     let normal = vec3<f32>(spot.slope * spot.fall, 1.0) * inverseSqrt(1.0 + spot.slope * spot.slope);
     let found = fractures_at(Face(spot.point.xy + bend, level, normal, thickness, spot.footprint));
     let broken = MASSIVE + (1.0 - MASSIVE) * ramp(texture.broad, BROKEN.x, BROKEN.y);
@@ -336,20 +343,20 @@ fn rock(spot: SurfacePoint, texture: Texture, blocks: Fractures) -> SurfaceSampl
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), rock_fold(texture), true);
     let tones = vec3<f32>(bedding.thick.tone, bedding.thin.tone, blocks.tone);
     let warmth = 0.4 + dot(vec3<f32>(0.7, 0.3, 0.3), tones) + 0.9 * texture.broad;
-    let tone = 0.92 + dot(vec3<f32>(0.45, 0.3, 0.4), tones) + 0.4 * texture.broad;
+    let tone = 0.92 + dot(vec3<f32>(0.45, 0.55, 0.6), tones) + 0.4 * texture.broad;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * max(tone, 0.3);
-    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint + 0.7 * blocks.crack;
-    let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height + joints;
-    let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
+    let joints = 0.7 * bedding.thick.joint + 0.6 * bedding.thin.joint + 1.1 * blocks.crack;
+    let cracks = 0.22 - 0.6 * texture.fine.value - 2.2 * texture.crags.height + joints;
+    let ledge = 0.4 * bedding.thick.ledge + 0.3 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
     let facets = facets_of(spot);
-    let bump = rough(texture, 0.15, 1.7) - spot.fall * ledge + facets * blocks.facet;
+    let bump = rough(texture, 0.2, 2.6) - spot.fall * ledge + facets * blocks.facet;
     return SurfaceSample(albedo, bump, vec4<f32>(0.0, 0.0, 1.0, 0.0));
 }
 
 // By how many beds the edge of one is ragged.
 fn torn(texture: Texture) -> f32 {
-    return 0.25 * texture.fine.value + 0.9 * texture.crags.height;
+    return 0.12 * texture.fine.value + 0.22 * texture.crags.height;
 }
 
 struct Bedding {
@@ -389,20 +396,23 @@ fn scattered(spot: SurfacePoint, texture: Texture, steep: f32) -> Canopy {
 fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, BEDDED.x, BEDDED.y);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
-    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad + torn(texture), false);
-    let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
-    let tones = 0.75 * bedding.thick.tone + 0.5 * bedding.thin.tone;
-    let bedded = tones - 0.35 * bedding.thick.joint - 0.2 * bedding.thin.joint;
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
+    let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
+    let tones = 0.9 * bedding.thick.tone + 1.1 * bedding.thin.tone;
+    let bedded = tones - 0.7 * bedding.thick.joint - 0.6 * bedding.thin.joint;
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
     if steep > 0.0 {
         blocks = rock_fractures(spot, texture, false);
     }
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
-    let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let slope = rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
+    let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
+    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, steep);
-    let hidden = mix(albedo * (tone * bushes.open), BUSH * albedo * (0.35 + bushes.tone), 0.85 * bushes.share);
-    return SurfaceSample(hidden, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
+    let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
+    let shaded = SurfaceSample(albedo * (tone * bushes.open), bump, kinds);
+    let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
+    let bush = SurfaceSample(kind * albedo * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
+    return mixed(shaded, bush, 0.85 * bushes.share);
 }

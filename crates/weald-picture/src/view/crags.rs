@@ -17,7 +17,7 @@ const GAIN: f32 = 0.65;
 const SEED: u32 = 0x13;
 
 /// How round crests are: the square of the value below which noise is not folded.
-const SHARP: f32 = 0.004;
+const SHARP: f32 = 0.0015;
 
 /// The mean of folded noise.
 const MEAN: f32 = 0.18;

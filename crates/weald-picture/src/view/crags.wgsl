@@ -4,7 +4,7 @@ const CRAG_CELLS = 4.0;
 const CRAG_OCTAVES = 5u;
 const CRAG_GAIN = 0.65;
 const CRAG_SEED = 0x13u;
-const CRAG_SHARP = 0.004;
+const CRAG_SHARP = 0.0015;
 const CRAG_MEAN = 0.18;
 
 // Height in metres over the side of a cell, above 0 on ridges, and slope eastward and northward.

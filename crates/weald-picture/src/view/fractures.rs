@@ -9,11 +9,11 @@ use super::vector::{Vector, ramp};
 use weald_core::grain::{bits, floor, visible};
 
 /// Height of the largest blocks over the thickness of a bed, and of those of a layer over that of the one before.
-const LARGEST: f32 = 0.434;
+const LARGEST: f32 = 1.0;
 const SMALLER: f32 = 0.434;
 
 /// Layers of blocks.
-const LAYERS: u32 = 6;
+const LAYERS: u32 = 7;
 
 /// Sides of a block beside its height.
 const SIDES: [f32; 2] = [1.5, 2.3];

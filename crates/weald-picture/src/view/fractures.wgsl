@@ -1,8 +1,8 @@
 // Twin of `fractures.rs`: joints of rock, and the blocks between them.
 
-const BLOCKS_LARGEST = 0.434;
+const BLOCKS_LARGEST = 1.0;
 const BLOCKS_SMALLER = 0.434;
-const BLOCK_LAYERS = 6u;
+const BLOCK_LAYERS = 7u;
 const BLOCK_SIDES = vec2<f32>(1.5, 2.3);
 const JOINT_FIRST = vec2<f32>(0.92, 0.39);
 const JOINT_SECOND = vec2<f32>(-0.47, 0.88);

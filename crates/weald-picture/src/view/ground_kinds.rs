@@ -64,6 +64,8 @@ pub(super) struct Limits {
     pub(super) rock: f32,
     /// Height above the lowest ground up to which trees grow, in metres.
     pub(super) trees: f32,
+    /// How far woods spread below that, from 0 to 1.
+    pub(super) woods: f32,
     /// Height above the lowest ground from which snow lies, in metres.
     pub(super) snow: f32,
     /// Metres from the lowest to the highest ground.

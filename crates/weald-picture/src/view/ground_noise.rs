@@ -50,7 +50,7 @@ impl Texture {
 
     /// By how many beds the edge of one is ragged.
     pub(super) fn torn(&self) -> f32 {
-        0.25 * self.fine.value + 0.9 * self.crags.height
+        0.12 * self.fine.value + 0.22 * self.crags.height
     }
 
     /// Slopes of the fine detail, and of ridges and gullies.
@@ -84,6 +84,6 @@ pub(super) fn broad_values(places: [&mut [f32]; 2], cell: f32) -> Vec<f32> {
 
 /// Some thirty beds over the relief, folded by about one of their thickness, at a point where patches have such a value.
 pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, broad: f32) -> BedSpot {
-    let (thick, fold) = if is_material { (0.03, 0.8) } else { (THICK, 1.4) };
+    let (thick, fold) = if is_material { (0.03, 0.3) } else { (THICK, 1.4) };
     BedSpot { point, fold: fold * broad, thickness: thick * limits.relief.max(1e-3), footprint: 0.0 }
 }

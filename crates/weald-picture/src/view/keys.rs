@@ -83,6 +83,9 @@ weald_core::parameters! {
         rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg", unless ground = "materials";
         /// Elevation up to which trees grow on natural ground. By default the lower 60 % of the relief.
         tree_line: Option<f64> = None, unit "m", unless ground = "materials";
+        /// How far woods spread over natural ground below `tree_line`: 0 nowhere, 0.5 where it is moist, 1 wherever it is not too
+        /// steep.
+        woods: f64 = 0.5, range 0.0..=1.0, unless ground = "materials";
         /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
         snow_line: Option<f64> = None, unit "m", unless ground = "materials";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.

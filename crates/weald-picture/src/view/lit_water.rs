@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use super::scene::{GroundSpot, RayMarcher, WaterSpot};
 use super::skylight;
 use super::terrain::{Hit, Ray};
-use super::vector::{Vector, add, dot, mirrored, scale, unit};
+use super::vector::{Vector, add, dot, mirrored, ramp, scale, unit};
 use super::water::{self, RiverSpot};
 use crate::colour::mix;
 
@@ -15,8 +15,10 @@ const DRAWN_OUT: f32 = 0.02;
 /// Radians over which ripples that are too small to be seen blur what water mirrors.
 const MIRRORED_BLUR: f32 = 0.06;
 
-/// Pixels of the shortest waves that are seen one by one.
-const SEEN_WAVES: f32 = 2.0;
+/// Pixels of the shortest waves that are seen one by one, near by and far away, and metres of water in a pixel where that changes:
+/// shorter ones would be grain, and such long ones far out at sea the grain of wood.
+const SEEN_WAVES: [f32; 2] = [4.0, 2.0];
+const FAR_WAVES: [f32; 2] = [15.0, 40.0];
 
 impl RayMarcher {
     /// A lake or the sea of a drawn depth, out of whose edge stones stand.
@@ -60,7 +62,9 @@ impl RayMarcher {
         let back = scale(ray.direction, -1.0);
         let footprint = self.footprint(hit.ray_length) / back[2].max(0.05).sqrt();
         // From afar the waves that are seen are longer ones, as steep: what is mirrored is drawn out, up and down most.
-        let length = (0.25 * terrain.cell()).min(6.0).max(SEEN_WAVES * footprint);
+        let far = ramp(footprint, FAR_WAVES[0], FAR_WAVES[1]);
+        let seen_waves = SEEN_WAVES[0] + (SEEN_WAVES[1] - SEEN_WAVES[0]) * far;
+        let length = (0.25 * terrain.cell()).min(6.0).max(seen_waves * footprint);
         let normal = water::ripples(point, length, footprint);
         let seen = self.skylight.at(self.share(hit.place));
         let share = water::mirrored_share(dot(back, normal));

@@ -108,6 +108,7 @@ impl LitScene {
         vec![
             ("grid", [size.columns as f32, size.rows as f32, terrain.spacing[0], terrain.spacing[1]]),
             ("limits", [limits.rock, limits.trees, limits.snow.min(UNREACHABLE_HEIGHT), limits.relief]),
+            ("woods", [limits.woods, 0.0, 0.0, 0.0]),
             ("scale", [limits.cell, setting.exaggeration, terrain.highest(), terrain.cell()]),
             (
                 "has",

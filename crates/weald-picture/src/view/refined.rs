@@ -33,7 +33,7 @@ const SHOWN: [f32; 2] = [4.0, 12.0];
 
 /// Height of crags beside that which they are drawn with; level beds stand as walls, which crags hardly flute.
 const HIGH: f32 = 1.3;
-const HIGH_OF_MATERIALS: f32 = 0.6;
+const HIGH_OF_MATERIALS: f32 = 0.4;
 
 /// Beds from one ledge to the next, and the share of its height that ground takes back on a ledge.
 const LEDGES: f32 = 2.0;
@@ -227,7 +227,8 @@ fn spread(field: &Field) -> Field {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { rock: 0.7, trees: 500.0, snow: f32::INFINITY, relief: 400.0, cell: 20.0 };
+    const LIMITS: Limits =
+        Limits { rock: 0.7, trees: 500.0, woods: 0.5, snow: f32::INFINITY, relief: 400.0, cell: 20.0 };
 
     fn of<'a>(ground: &'a Field, level: Option<&'a Field>) -> Coarse<'a> {
         Coarse { ground, level, spacing: [20.0; 2], limits: LIMITS, exaggeration: 1.0, is_material: false }

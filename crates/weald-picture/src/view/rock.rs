@@ -13,6 +13,9 @@ const DIP_TOWARDS: [f32; 2] = [0.8, -0.6];
 /// Height of a bed's face over its thickness; the ledge above it takes the rest.
 const FACE: f32 = 0.72;
 
+/// How far, as a share of its thickness, a bed begins above or below where it would if all were equally thick, at most half of it.
+const UNEVEN: f32 = 0.85;
+
 /// Beds at a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beds {
@@ -47,14 +50,34 @@ fn level(spot: &BedSpot, dips: bool) -> f32 {
     (z + if dips { dip([x, y]) } else { 0.0 }) / spot.thickness + spot.fold
 }
 
+/// A number of a bed by chance, from -0.5 to 0.5.
+fn chance(bed: f32, what: i32, seed: u32) -> f32 {
+    (bits(bed as i32, what, seed) >> 8) as f32 / 16_777_216.0 - 0.5
+}
+
+/// Which bed lies at a level, where it begins there, and how thick it is beside the mean one.
+fn bed_at(level: f32, seed: u32) -> [f32; 3] {
+    let begins = |bed: f32| bed + UNEVEN * chance(bed, 7, seed);
+    let middle = level.floor();
+    let number = if level < begins(middle) {
+        middle - 1.0
+    } else if level < begins(middle + 1.0) {
+        middle
+    } else {
+        middle + 1.0
+    };
+    let first = begins(number);
+    [number, first, begins(number + 1.0) - first]
+}
+
 /// The beds at a point; level ones where they do not dip.
 pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
     let level = level(spot, dips);
-    let number = level.floor();
-    let within = level - number;
-    let blur = spot.footprint / spot.thickness;
+    let [number, first, thick] = bed_at(level, seed);
+    let within = (level - first) / thick;
+    let blur = spot.footprint / (thick * spot.thickness);
     let seen = 1.0 - ramp(blur, 0.25, 0.8);
-    let tone = |bed: f32| (bits(bed as i32, 5, seed) >> 8) as f32 / 16_777_216.0 - 0.5;
+    let tone = |bed: f32| chance(bed, 5, seed);
     let edge = ramp(within, 0.0, (1.5 * blur).clamp(0.06, 0.5));
     let deep = tone(number + 1000.0).abs() + 0.5;
     Beds {
@@ -93,6 +116,26 @@ mod tests {
         let tones: Vec<f32> =
             (0..12).map(|bed| at([100.0, 200.0, 63.0 + 10.0 * bed as f32], 0.1).tone).collect();
         assert!(tones.iter().any(|tone| (tone - tones[0]).abs() > 0.3), "{tones:?}");
+    }
+
+    #[test]
+    fn beds_are_of_all_thicknesses_and_follow_each_other_without_gaps() {
+        let (mut thinnest, mut thickest, mut above) = (f32::MAX, 0.0_f32, bed_at(0.0, 7));
+        for step in 1..20_000_u16 {
+            let level = f32::from(step) * 0.01;
+            let [number, first, thick] = bed_at(level, 7);
+            assert!(
+                first <= level && level < first + thick + 1e-3,
+                "{level} in {first} to {}",
+                first + thick
+            );
+            if number > above[0] {
+                assert!(number - above[0] == 1.0 && (first - above[1] - above[2]).abs() < 1e-3, "{level}");
+                above = [number, first, thick];
+            }
+            (thinnest, thickest) = (thinnest.min(thick), thickest.max(thick));
+        }
+        assert!(thinnest < 0.4 && thickest > 1.6, "{thinnest} to {thickest} of the mean");
     }
 
     #[test]

@@ -210,6 +210,7 @@ fn limits(view: &View, [low, high]: [f32; 2], ground: &Field, spacing: [f32; 2])
     Limits {
         rock: rock_slope(view, ground, spacing),
         trees: view.tree_line.map_or(TREES * relief, above),
+        woods: view.woods as f32,
         snow: view.snow_line.map_or(f32::INFINITY, above),
         relief,
         cell: spacing[0].min(spacing[1]),

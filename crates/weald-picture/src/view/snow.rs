@@ -39,8 +39,8 @@ pub(super) fn snow_share(spot: &SnowSpot) -> f32 {
     let hold = (1.3 - spot.steepness).min(0.6);
     let score = spot.above / SCALE + aspect + 1.6 * hold + 1.3 * spot.hollow;
     let whole = ramp(score, -0.2, 2.0);
-    let patches = 4.0 * whole * (1.0 - whole) * (0.45 * broad + 1.0 * fine + 0.5 * gully);
-    let dusting = 0.35 * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
+    let patches = 4.0 * whole * (1.0 - whole) * (0.6 * broad + 0.4 * fine + 1.4 * gully);
+    let dusting = 0.25 * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
     ramp(whole + patches, 0.38, 0.62).max(dusting)
 }
 

@@ -20,7 +20,7 @@ fn snow_share(spot: SnowSpot) -> f32 {
     let hold = min(1.3 - spot.steepness, 0.6);
     let score = spot.above / SNOW_SCALE + aspect + 1.6 * hold + 1.3 * spot.hollow;
     let whole = ramp(score, -0.2, 2.0);
-    let patches = 4.0 * whole * (1.0 - whole) * dot(vec3<f32>(0.45, 1.0, 0.5), spot.noise);
-    let dusting = 0.35 * ramp(score, -0.2, 1.2) * clamp(0.6 + spot.noise.y, 0.0, 1.0);
+    let patches = 4.0 * whole * (1.0 - whole) * dot(vec3<f32>(0.6, 0.4, 1.4), spot.noise);
+    let dusting = 0.25 * ramp(score, -0.2, 1.2) * clamp(0.6 + spot.noise.y, 0.0, 1.0);
     return max(ramp(whole + patches, 0.38, 0.62), dusting);
 }

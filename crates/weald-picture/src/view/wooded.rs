@@ -16,6 +16,7 @@ const CLIFF: [f32; 2] = [0.72, 1.08];
 const SMALLER: f32 = 1.1;
 const SCATTERED: f32 = 0.6;
 const BUSH: Linear = [0.34, 0.42, 0.28];
+const BOULDER: Linear = [1.25, 1.2, 1.15];
 
 /// Light that needles and leaves send back beside that of a wood.
 const NEEDLES: Linear = [0.66, 0.79, 0.95];
@@ -29,8 +30,14 @@ const MOST_LEAVES: f32 = 0.85;
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
 
+/// What is between no woods and woods everywhere: the score of trees that the driest and the moistest ground differ by, and more.
+const SPREAD: f32 = 2.8;
+
+/// How far woods spread where every tree that chance would have stands; of fewer, none is left in the end.
+const FEW: f32 = 0.1;
+
 /// How densely lone trees stand before a wood.
-const LONE: f32 = 0.05;
+const LONE: f32 = 0.1;
 
 impl Cover {
     /// How densely trees stand at a point of natural ground, from 0 to 1, and the share of conifers among them.
@@ -86,11 +93,13 @@ impl Cover {
         let steep = ramp(spot.slope / self.limits.rock, 0.95, 1.3);
         // A score: moisture first, then patches; height below the tree line helps a little and cannot make up
         // for drought.
-        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-8.0, 0.8) - 0.4 * steep;
+        let wood =
+            1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-8.0, 0.8) - 0.4 * steep + self.spread();
         let [metres, share] = SHORE;
         // Woods thin out at their edges, and a few trees stand far off.
-        let density = ramp(wood, 0.02, 0.52).max(LONE * ramp(wood, -0.45, 0.1));
-        density * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
+        let density = ramp(wood, 0.02, 0.52).max(LONE * ramp(wood, -0.7, 0.1));
+        let few = (self.limits.woods / FEW).min(1.0);
+        few * density * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
     }
 
     /// How far below the tree line a height is, in widths of the belt in which trees become fewer.
@@ -98,17 +107,20 @@ impl Cover {
         (self.limits.trees - height) / (0.12 * self.limits.relief).max(1e-3)
     }
 
-    /// The colour of ground of materials with its bushes: of so steep ground, from the material's and that of what lies there.
+    /// Ground of a material with its bushes, where it is so steep.
     pub(super) fn with_bushes(
         &self,
         spot: &SurfacePoint,
         texture: &Texture,
         steep: f32,
-        [material, ground]: [Linear; 2],
-    ) -> Linear {
+        (material, ground): (Linear, &SurfaceSample),
+    ) -> SurfaceSample {
         let bushes = self.scattered(spot, texture, steep);
-        let bush = filter(BUSH, scale(material, 0.35 + bushes.tone));
-        mix(scale(ground, bushes.open), bush, 0.85 * bushes.share)
+        let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
+        let albedo = filter(kind, scale(material, 0.35 + bushes.tone));
+        let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
+        let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
+        shaded.mixed(&bush, 0.85 * bushes.share)
     }
 
     /// Bushes and boulders on gentle ground of materials.
@@ -123,6 +135,13 @@ impl Cover {
     pub(super) fn has_woods(&self) -> bool {
         // The score of the best place, at the lowest ground.
         let line = self.below_tree_line(0.0);
-        !self.sites.shows_materials() && 1.2 + 0.4 * line.clamp(-8.0, 0.8) > 0.02
+        !self.sites.shows_materials()
+            && self.limits.woods > 0.0
+            && 1.2 + 0.4 * line.clamp(-8.0, 0.8) + self.spread() > 0.02
+    }
+
+    /// What a place is more or less wooded than usual.
+    fn spread(&self) -> f32 {
+        SPREAD * (self.limits.woods - 0.5)
     }
 }

@@ -41,7 +41,7 @@ const LEAFY: [f32; 2] = [0.45, 0.35];
 
 /// Wavelengths in spacings by which crowns and groups of them are told from each other: where a crown is a pixel or two, woods
 /// would be speckled.
-const TOLD: [f32; 2] = [0.9, 1.4];
+const TOLD: [f32; 2] = [0.85, 1.35];
 
 /// How much lighter or darker one group of crowns is than another.
 const UNLIKE: f32 = 0.4;
@@ -53,11 +53,11 @@ const BELOW: f32 = 0.26;
 pub(super) const MIDDLE_AGE: f32 = 1.35;
 
 /// Density and age of groups of crowns, of which some are missing, so that their lattice does not show.
-pub(super) const GROUPS: [f32; 2] = [0.8, 1.5];
+pub(super) const GROUPS: [f32; 2] = [0.85, 1.1];
 
 /// Stands, of other kinds and other ages than those beside them: their longest wavelength in metres, and what they add to the
 /// tone, to the size of crowns, and to the number by which the kind of a group is chosen.
-const STANDS: f32 = 310.0;
+const STANDS: f32 = 900.0;
 const OF_TONE: f32 = 0.8;
 const OF_SIZE: f32 = 1.1;
 const OF_KIND: f32 = 0.9;
@@ -235,7 +235,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
 
 /// What a stand is beside others, about from -0.5 to 0.5.
 fn stand(point: [f32; 2], footprint: f32) -> f32 {
-    let stands = Octaves { wavelength: STANDS, count: 4, gain: 0.6, seed: SEED + LAYERS + 1 };
+    let stands = Octaves { wavelength: STANDS, count: 6, gain: 0.6, seed: SEED + LAYERS + 1 };
     stands.at([point[0], point[1], 0.0], footprint).value
 }
 

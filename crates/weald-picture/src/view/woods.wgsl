@@ -4,7 +4,7 @@
 const WOOD_SPACING = 7.0;
 
 // Wavelengths in spacings by which crowns and groups of them are told from each other.
-const WOOD_TOLD = vec2<f32>(0.9, 1.4);
+const WOOD_TOLD = vec2<f32>(0.85, 1.35);
 
 const WOOD_LAYERS = 4u;
 const WOOD_COARSER = 2.6;
@@ -27,11 +27,11 @@ const WOOD_BELOW = 0.26;
 const MIDDLE_AGE = 1.35;
 
 // Density and age of groups of crowns, of which some are missing.
-const GROUPS = vec2<f32>(0.8, 1.5);
+const GROUPS = vec2<f32>(0.85, 1.1);
 
 // Stands: their longest wavelength in metres, and what they add to the tone, to the size of crowns and to the number by which
 // the kind of a group is chosen.
-const STANDS = 310.0;
+const STANDS = 900.0;
 const STANDS_TONE = 0.8;
 const STANDS_SIZE = 1.1;
 const STANDS_KIND = 0.9;
@@ -176,7 +176,7 @@ fn stand_at(point: vec2<f32>, footprint: f32, wooded: f32) -> f32 {
     if wooded <= 0.0 {
         return 0.0;
     }
-    return octaves_at(Octaves(STANDS, 4u, 0.6, WOOD_SEED + WOOD_LAYERS + 1u), point, footprint).value;
+    return octaves_at(Octaves(STANDS, 6u, 0.6, WOOD_SEED + WOOD_LAYERS + 1u), point, footprint).value;
 }
 
 // Crowns that are seen one by one, with so much dark between them.

@@ -244,6 +244,18 @@ fn snow_lies_above_its_line() {
 }
 
 #[test]
+fn woods_spread_from_nowhere_over_moist_ground_to_all_that_is_gentle() {
+    let view = |woods: f64| View { woods, water: false, ..above() };
+    let none = draw(&View { tree_line: Some(-1000.0), ..view(0.5) }, &country());
+    let wooded = [0.0, 0.3, 0.5, 0.7, 1.0].map(|woods| {
+        let drawn = draw(&view(woods), &country());
+        drawn.rgb.chunks(3).zip(none.rgb.chunks(3)).filter(|(a, b)| a != b).count()
+    });
+    assert_eq!(wooded[0], 0, "no tree stands");
+    assert!(wooded.is_sorted() && wooded[4] > 2 * wooded[1].max(1000), "{wooded:?}");
+}
+
+#[test]
 fn frames_of_a_turntable_differ_and_the_last_is_the_first_again() {
     let frame = |share: f64| draw(&View { samples: 1, ..small() }.turned(share), &country());
     let (first, half, last) = (frame(0.0), frame(0.5), frame(1.0));
