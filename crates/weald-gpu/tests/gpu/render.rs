@@ -315,7 +315,7 @@ fn grass_stands_around_the_camera_thins_out_and_sways() {
 fn what_is_made_with_its_plants_draws_what_is_planted_later() {
     let Some(gpu) = gpu() else { return };
     for (landscape, grows) in [(meadow(), true), (mountains(), false)] {
-        let scene = LitScene::new(&view(), &landscape).expect("a scene");
+        let scene = LitScene::new(&View { woods: 0.0, ..view() }, &landscape).expect("a scene");
         let camera = above(&scene, [60.0, 70.0], 1.5, 12.0, 0.0);
         let mut later = renderer(&gpu, &scene, 4);
         let bare = later.render(&camera).expect("drawn");

@@ -25,6 +25,9 @@ const BLOCKY: f32 = 0.16;
 /// What blocks of a material and the cracks between them add to its tone.
 const BLOCKS: [f32; 2] = [0.6, 1.3];
 
+/// Slope of the facets of those blocks beside that of natural rock, which weathers more evenly.
+const BLOCKS_OF_MATERIALS: f32 = 2.0;
+
 /// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
 const BEDDED: [f32; 2] = [0.5, 1.2];
 
@@ -224,7 +227,7 @@ impl Cover {
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
-        let facets = steep * Self::facets(spot);
+        let facets = BLOCKS_OF_MATERIALS * steep * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         let ground = SurfaceSample { albedo: scale(albedo, tone), bump };

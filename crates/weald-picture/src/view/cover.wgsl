@@ -42,6 +42,7 @@ const UPRIGHT = 0.4;
 
 // What blocks of a material and the cracks between them add to its tone.
 const BLOCKS = vec2<f32>(0.6, 1.3);
+const BLOCKS_OF_MATERIALS = 2.0;
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
 // reach into each other, on gentle ground and on such faces.
@@ -407,7 +408,7 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
-    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
+    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + BLOCKS_OF_MATERIALS * steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, steep);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
