@@ -41,7 +41,7 @@ const BROKEN = vec2<f32>(-0.25, 0.35);
 const UPRIGHT = 0.4;
 
 // What blocks of a material and the cracks between them add to its tone.
-const BLOCKS = vec2<f32>(0.6, 1.3);
+const BLOCKS = vec2<f32>(0.6, 1.0);
 const BLOCKS_OF_MATERIALS = 2.0;
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
@@ -399,8 +399,8 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
     let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
-    let tones = 0.9 * bedding.thick.tone + 1.1 * bedding.thin.tone;
-    let bedded = tones - 0.7 * bedding.thick.joint - 0.6 * bedding.thin.joint;
+    let tones = 0.6 * bedding.thick.tone + 0.7 * bedding.thin.tone;
+    let bedded = tones - 0.4 * bedding.thick.joint - 0.5 * bedding.thin.joint;
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
     if steep > 0.0 {
         blocks = rock_fractures(spot, texture, false);
