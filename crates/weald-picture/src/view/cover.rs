@@ -23,10 +23,7 @@ const STRAND: f32 = 0.66;
 const BLOCKY: f32 = 0.16;
 
 /// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS: [f32; 2] = [0.6, 1.0];
-
-/// Slope of the facets of those blocks beside that of natural rock, which weathers more evenly.
-const BLOCKS_OF_MATERIALS: f32 = 2.0;
+const BLOCKS: [f32; 2] = [0.6, 1.3];
 
 /// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
 const BEDDED: [f32; 2] = [0.5, 1.2];
@@ -223,11 +220,11 @@ impl Cover {
         let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
         let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
-        let bedded = 0.6 * bed.tone + 0.7 * thin.tone - 0.4 * bed.joint - 0.5 * thin.joint;
+        let bedded = 0.9 * bed.tone + 1.1 * thin.tone - 0.7 * bed.joint - 0.6 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
-        let facets = BLOCKS_OF_MATERIALS * steep * Self::facets(spot);
+        let facets = steep * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         let ground = SurfaceSample { albedo: scale(albedo, tone), bump };

@@ -41,8 +41,7 @@ const BROKEN = vec2<f32>(-0.25, 0.35);
 const UPRIGHT = 0.4;
 
 // What blocks of a material and the cracks between them add to its tone.
-const BLOCKS = vec2<f32>(0.6, 1.0);
-const BLOCKS_OF_MATERIALS = 2.0;
+const BLOCKS = vec2<f32>(0.6, 1.3);
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
 // reach into each other, on gentle ground and on such faces.
@@ -399,8 +398,8 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
     let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
-    let tones = 0.6 * bedding.thick.tone + 0.7 * bedding.thin.tone;
-    let bedded = tones - 0.4 * bedding.thick.joint - 0.5 * bedding.thin.joint;
+    let tones = 0.9 * bedding.thick.tone + 1.1 * bedding.thin.tone;
+    let bedded = tones - 0.7 * bedding.thick.joint - 0.6 * bedding.thin.joint;
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
     if steep > 0.0 {
         blocks = rock_fractures(spot, texture, false);
@@ -408,7 +407,7 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
-    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + BLOCKS_OF_MATERIALS * steep * facets_of(spot) * blocks.facet;
+    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, steep);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
