@@ -30,6 +30,7 @@ mod keys;
 mod lit_scene;
 mod lit_water;
 mod maps;
+mod materials;
 mod numbers;
 mod pixel_mean;
 mod pyramid;

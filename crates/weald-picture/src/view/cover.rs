@@ -22,18 +22,8 @@ const STRAND: f32 = 0.66;
 /// By how much rock is bare sooner on one of its blocks than on another.
 const BLOCKY: f32 = 0.16;
 
-/// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS: [f32; 2] = [0.6, 1.3];
-
-/// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
-const BEDDED: [f32; 2] = [0.5, 1.2];
-
-/// By how many cells times their noise materials reach into each other, on gentle ground and on such faces, where they are beds
-/// with edges: those of a landscape fade into each other over a cell or two.
-const MINGLED: [f32; 2] = [3.0, 0.3];
-
 /// Slope that bumps of bare rock come near: its faces are sharp.
-const STEEPEST_ROCK: f32 = 1.9;
+pub(super) const STEEPEST_ROCK: f32 = 1.9;
 
 /// Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share
 /// of crags it grows, its greatest share, and how wet ground is on which it becomes less.
@@ -203,32 +193,6 @@ impl Cover {
             hollow: self.sites.moisture(spot.place) - 0.5,
             noise: [texture.broad, texture.fine.value, -texture.crags.height],
         })
-    }
-
-    /// The place of which the material lies at a point: materials mingle along their borders.
-    fn mingled(&self, spot: &SurfacePoint, texture: &Texture) -> [f32; 2] {
-        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
-        let cells = self.sites.fineness * (MINGLED[0] + (MINGLED[1] - MINGLED[0]) * steep);
-        [spot.place[0] + cells * texture.fine.value, spot.place[1] + cells * texture.crags.height]
-    }
-
-    fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
-        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
-        let thick = 0.03 * self.limits.relief.max(1e-3);
-        let fold = 0.3 * texture.broad + texture.torn();
-        let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
-        let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
-        let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
-        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
-        let bedded = 0.9 * bed.tone + 1.1 * thin.tone - 0.7 * bed.joint - 0.6 * thin.joint;
-        let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
-        let (rough, ledge) =
-            (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
-        let facets = steep * Self::facets(spot);
-        let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
-        let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
-        let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
-        self.with_bushes(spot, texture, steep, (albedo, &ground))
     }
 
     /// The bed of a lake or a river.

@@ -1,6 +1,6 @@
 //! Beds of rock where they are seen: layers of their own tone with joints between them, which stand out as ledges.
 //!
-//! Beds dip and are folded; each has a tone by chance. Below each is a joint, dark and sunk, and above it a ledge on which
+//! Beds dip and are folded; each has a tone and a thickness by chance. Below each is a joint, dark and sunk, and above it a ledge on which
 //! the face lies back. What is finer than a pixel fades out.
 
 use super::vector::ramp;
@@ -13,7 +13,7 @@ const DIP_TOWARDS: [f32; 2] = [0.8, -0.6];
 /// Height of a bed's face over its thickness; the ledge above it takes the rest.
 const FACE: f32 = 0.72;
 
-/// How far, as a share of its thickness, a bed begins above or below where it would if all were equally thick, at most half of it.
+/// Range of where a bed begins, in mean thicknesses, about where it would if all were equally thick.
 const UNEVEN: f32 = 0.85;
 
 /// Beds at a point.
@@ -50,7 +50,7 @@ fn level(spot: &BedSpot, dips: bool) -> f32 {
     (z + if dips { dip([x, y]) } else { 0.0 }) / spot.thickness + spot.fold
 }
 
-/// A number of a bed by chance, from -0.5 to 0.5.
+/// A random number of a bed, from -0.5 to 0.5.
 fn chance(bed: f32, what: i32, seed: u32) -> f32 {
     (bits(bed as i32, what, seed) >> 8) as f32 / 16_777_216.0 - 0.5
 }

@@ -18,7 +18,7 @@ const LIGHT: [&str; 8] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 13] = [
+const GROUND: [&str; 14] = [
     include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
     include_str!("fractures.wgsl"),
@@ -27,6 +27,7 @@ const GROUND: [&str; 13] = [
     include_str!("crown_relief.wgsl"),
     include_str!("turf.wgsl"),
     include_str!("cover.wgsl"),
+    include_str!("materials.wgsl"),
     include_str!("water.wgsl"),
     include_str!("side.wgsl"),
     include_str!("scene.wgsl"),

@@ -1,4 +1,4 @@
-//! Where trees of natural ground stand, how densely and of which kind, and bushes on ground of materials.
+//! Where trees of natural ground stand, how densely and of which kind.
 
 use super::cover::Cover;
 use super::crown_relief::seen_crown;
@@ -10,13 +10,6 @@ use crate::colour::{Linear, mix};
 
 /// Steepness from which trees become fewer, and from which there are none.
 const CLIFF: [f32; 2] = [0.72, 1.08];
-
-/// How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
-/// the ground sends back.
-const SMALLER: f32 = 1.1;
-const SCATTERED: f32 = 0.6;
-const BUSH: Linear = [0.34, 0.42, 0.28];
-const BOULDER: Linear = [1.25, 1.2, 1.15];
 
 /// Light that needles and leaves send back beside that of a wood.
 const NEEDLES: Linear = [0.66, 0.79, 0.95];
@@ -30,10 +23,10 @@ const MOST_LEAVES: f32 = 0.85;
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
 
-/// What is between no woods and woods everywhere: the score of trees that the driest and the moistest ground differ by, and more.
+/// How much higher the score of trees is where woods spread everywhere than where nowhere: more than moisture makes of it.
 const SPREAD: f32 = 2.8;
 
-/// How far woods spread where every tree that chance would have stands; of fewer, none is left in the end.
+/// Spread of woods below which trees become fewer, down to none.
 const FEW: f32 = 0.1;
 
 /// How densely lone trees stand before a wood.
@@ -107,30 +100,6 @@ impl Cover {
         (self.limits.trees - height) / (0.12 * self.limits.relief).max(1e-3)
     }
 
-    /// Ground of a material with its bushes, where it is so steep.
-    pub(super) fn with_bushes(
-        &self,
-        spot: &SurfacePoint,
-        texture: &Texture,
-        steep: f32,
-        (material, ground): (Linear, &SurfaceSample),
-    ) -> SurfaceSample {
-        let bushes = self.scattered(spot, texture, steep);
-        let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
-        let albedo = filter(kind, scale(material, 0.35 + bushes.tone));
-        let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
-        let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
-        shaded.mixed(&bush, 0.85 * bushes.share)
-    }
-
-    /// Bushes and boulders on gentle ground of materials.
-    fn scattered(&self, spot: &SurfacePoint, texture: &Texture, steep: f32) -> Canopy {
-        let patchy = texture.broad + 0.6 * texture.fine.value;
-        let density = SCATTERED * ramp(patchy, -0.35, 0.5) * (1.0 - steep);
-        let [x, y, _] = spot.point;
-        canopy([SMALLER * x, SMALLER * y], density, SMALLER * spot.footprint, self.sun)
-    }
-
     /// Whether ground of this height may bear trees.
     pub(super) fn has_woods(&self) -> bool {
         // The score of the best place, at the lowest ground.
@@ -140,7 +109,7 @@ impl Cover {
             && 1.2 + 0.4 * line.clamp(-8.0, 0.8) + self.spread() > 0.02
     }
 
-    /// What a place is more or less wooded than usual.
+    /// What the spread of woods adds to the score of trees.
     fn spread(&self) -> f32 {
         SPREAD * (self.limits.woods - 0.5)
     }

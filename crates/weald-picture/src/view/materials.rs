@@ -1,0 +1,83 @@
+//! Ground of the materials that a recipe names: their beds and blocks where it is steep, bushes and boulders where it is gentle.
+
+use super::cover::{Cover, STEEPEST_ROCK};
+use super::fractures::Fractures;
+use super::ground_kinds::{SurfacePoint, SurfaceSample};
+use super::ground_noise::{STEEPEST, STEEPEST_CROWN, Texture, no_steeper};
+use super::vector::{filter, ramp, scale};
+use super::woods::{Canopy, canopy};
+use crate::colour::{Linear, mix};
+
+/// What blocks of a material and the cracks between them add to its tone.
+const BLOCKS: [f32; 2] = [0.6, 1.3];
+
+/// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
+const BEDDED: [f32; 2] = [0.5, 1.2];
+
+/// By how many cells times their noise materials reach into each other, on gentle ground and on such faces, where they are beds
+/// with edges: those of a landscape fade into each other over a cell or two.
+const MINGLED: [f32; 2] = [3.0, 0.3];
+
+/// How many times smaller than trees bushes and boulders are, how densely they lie at most, and how much light the
+/// one and the other send back beside the material that they stand on.
+const SMALLER: f32 = 1.1;
+const SCATTERED: f32 = 0.6;
+const BUSH: Linear = [0.34, 0.42, 0.28];
+const BOULDER: Linear = [1.25, 1.2, 1.15];
+
+impl Cover {
+    /// The place of which the material lies at a point: materials mingle along their borders.
+    pub(super) fn mingled(&self, spot: &SurfacePoint, texture: &Texture) -> [f32; 2] {
+        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
+        let cells = self.sites.fineness * (MINGLED[0] + (MINGLED[1] - MINGLED[0]) * steep);
+        [spot.place[0] + cells * texture.fine.value, spot.place[1] + cells * texture.crags.height]
+    }
+
+    pub(super) fn of_material(
+        &self,
+        spot: &SurfacePoint,
+        albedo: Linear,
+        texture: &Texture,
+    ) -> SurfaceSample {
+        let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
+        let thick = 0.03 * self.limits.relief.max(1e-3);
+        let fold = 0.3 * texture.broad + texture.torn();
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
+        let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
+        let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
+        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
+        let bedded = 0.9 * bed.tone + 1.1 * thin.tone - 0.7 * bed.joint - 0.6 * thin.joint;
+        let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
+        let (rough, ledge) =
+            (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
+        let facets = steep * Self::facets(spot);
+        let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
+        let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
+        let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
+        self.with_bushes(spot, texture, steep, (albedo, &ground))
+    }
+
+    /// Ground of a material and a steepness, with its bushes and boulders.
+    fn with_bushes(
+        &self,
+        spot: &SurfacePoint,
+        texture: &Texture,
+        steep: f32,
+        (material, ground): (Linear, &SurfaceSample),
+    ) -> SurfaceSample {
+        let bushes = self.scattered(spot, texture, steep);
+        let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
+        let albedo = filter(kind, scale(material, 0.35 + bushes.tone));
+        let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
+        let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
+        shaded.mixed(&bush, 0.85 * bushes.share)
+    }
+
+    /// Bushes and boulders on gentle ground of materials.
+    fn scattered(&self, spot: &SurfacePoint, texture: &Texture, steep: f32) -> Canopy {
+        let patchy = texture.broad + 0.6 * texture.fine.value;
+        let density = SCATTERED * ramp(patchy, -0.35, 0.5) * (1.0 - steep);
+        let [x, y, _] = spot.point;
+        canopy([SMALLER * x, SMALLER * y], density, SMALLER * spot.footprint, self.sun)
+    }
+}
