@@ -25,6 +25,9 @@ pub struct RayMarcher {
     pixel_angle: f32,
 }
 
+/// Rays of a pixel beyond which more do not show finer detail: they lie in a square of two by two.
+const MOST_BESIDE: usize = 4;
+
 /// A point of dry ground that is looked at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GroundSpot {
@@ -60,6 +63,12 @@ impl Deref for RayMarcher {
     }
 }
 
+/// The share of a pixel's width that a ray stands for where a pixel has so many: rays side by side show what is finer than a
+/// pixel, and what each of them leaves out would be blurred twice.
+fn angle_of_ray(rays: usize) -> f32 {
+    1.0 / (rays.min(MOST_BESIDE) as f32).sqrt()
+}
+
 impl RayMarcher {
     /// The view from its own camera, or from another.
     pub(super) fn new(view: &View, landscape: &Landscape, from: Option<Camera>) -> Result<Self, Error> {
@@ -69,8 +78,9 @@ impl RayMarcher {
             None => scene,
         };
         let pixels = [view.width as usize, view.height as usize];
-        let pixel_angle = scene.camera.pixel_angle(pixels[0]);
-        Ok(Self { scene, pixels, samples: camera::samples(view.samples), pixel_angle })
+        let samples = camera::samples(view.samples);
+        let pixel_angle = angle_of_ray(samples.len()) * scene.camera.pixel_angle(pixels[0]);
+        Ok(Self { scene, pixels, samples, pixel_angle })
     }
 
     /// For pictures of a scene that are made row by row, of one ray a pixel; the camera is that of the scene.
@@ -87,7 +97,8 @@ impl RayMarcher {
     /// Looks from another camera, at so many columns and rows of pixels.
     pub fn look_from(&mut self, camera: Camera, pixels: [usize; 2]) {
         self.scene.look_from(camera);
-        (self.pixels, self.pixel_angle) = (pixels, camera.pixel_angle(pixels[0]));
+        self.pixels = pixels;
+        self.pixel_angle = angle_of_ray(self.samples.len()) * camera.pixel_angle(pixels[0]);
     }
 
     /// The bytes of a row of pixels from left to right, red, green and blue of each; row 0 is the uppermost.
