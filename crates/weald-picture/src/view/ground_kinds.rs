@@ -90,7 +90,7 @@ pub(super) struct Palette {
 
 impl Default for Palette {
     fn default() -> Self {
-        let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
+        let [lush, meadow, dry, alpine] = [0x4d_5e2e, 0x59_6737, 0x78_7648, 0x62_683f].map(linear_of_hex);
         let forest = [0x28_3520, 0x66_783e].map(linear_of_hex);
         let rock = [0x74_7270, 0x3e_3c3a, 0x88_7d70].map(linear_of_hex);
         let [scree, gravel, snow] = [0x87_7f70, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);

@@ -1,12 +1,14 @@
 //! Ground of the materials that a recipe names: their beds and blocks where it is steep, bushes and boulders where it is gentle.
 
 use super::cover::{Cover, STEEPEST_ROCK};
+use super::crown_relief::seen_crown;
 use super::fractures::Fractures;
 use super::ground_kinds::{SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, STEEPEST_CROWN, Texture, no_steeper};
 use super::vector::{filter, ramp, scale};
 use super::woods::{Canopy, canopy};
 use crate::colour::{Linear, mix};
+use weald_core::grain::Octaves;
 
 /// What blocks of a material and the cracks between them add to its tone.
 const BLOCKS: [f32; 2] = [0.6, 1.3];
@@ -18,12 +20,17 @@ const BEDDED: [f32; 2] = [0.5, 1.2];
 /// with edges: those of a landscape fade into each other over a cell or two.
 const MINGLED: [f32; 2] = [3.0, 0.3];
 
-/// How many times smaller than trees bushes and boulders are, how densely they lie at most, and how much light the
-/// one and the other send back beside the material that they stand on.
-const SMALLER: f32 = 1.1;
-const SCATTERED: f32 = 0.6;
-const BUSH: Linear = [0.34, 0.42, 0.28];
-const BOULDER: Linear = [1.25, 1.2, 1.15];
+/// Longest wavelength of the grain of a steep face over the thickness of a bed.
+const GRAINED: f32 = 1.8;
+
+/// How many times smaller than trees bushes and boulders are, how densely they lie at most, the slopes from which they are fewer and
+/// from which there are none, those from which there are more and more boulders, how much light bushes send back, and boulders beside the material that they lie on.
+const SMALLER: f32 = 0.8;
+const SCATTERED: f32 = 0.95;
+const BUSHY: [f32; 2] = [0.6, 0.95];
+const LOOSE: [f32; 2] = [0.3, 0.6];
+const BUSH: Linear = [0.092, 0.102, 0.046];
+const BOULDER: Linear = [0.9, 0.88, 0.86];
 
 impl Cover {
     /// The place of which the material lies at a point: materials mingle along their borders.
@@ -43,10 +50,11 @@ impl Cover {
         let thick = 0.03 * self.limits.relief.max(1e-3);
         let fold = 0.3 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
-        let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
+        let grained = if steep > 0.0 { Self::grain_of_wall(spot, thick) } else { 0.0 };
+        let fine = 0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
         let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
-        let bedded = 0.9 * bed.tone + 1.1 * thin.tone - 0.7 * bed.joint - 0.6 * thin.joint;
+        let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
@@ -54,30 +62,39 @@ impl Cover {
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
-        self.with_bushes(spot, texture, steep, (albedo, &ground))
+        self.with_bushes(spot, texture, (albedo, &ground))
     }
 
-    /// Ground of a material and a steepness, with its bushes and boulders.
+    /// Noise of a steep face, on the upright planes beside it: on the level plane it would be drawn out downward.
+    fn grain_of_wall(spot: &SurfacePoint, thick: f32) -> f32 {
+        let octaves = Octaves { wavelength: GRAINED * thick, count: 6, gain: 0.6, seed: 0x17 };
+        let [x, y, z] = spot.point;
+        let [east, north] = spot.fall.map(|towards| towards * towards);
+        let on = |along: f32| octaves.at([along, z, 0.0], spot.footprint).value;
+        east * on(y) + north * on(x)
+    }
+
+    /// Ground of a material, with its bushes and boulders.
     fn with_bushes(
         &self,
         spot: &SurfacePoint,
         texture: &Texture,
-        steep: f32,
         (material, ground): (Linear, &SurfaceSample),
     ) -> SurfaceSample {
-        let bushes = self.scattered(spot, texture, steep);
-        let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
-        let albedo = filter(kind, scale(material, 0.35 + bushes.tone));
+        let bushes = self.scattered(spot, texture);
+        let kind = mix(BUSH, filter(BOULDER, material), ramp(bushes.chance + 0.7 * ramp(spot.slope, LOOSE[0], LOOSE[1]), 0.8, 0.88));
+        let albedo = scale(kind, 0.35 + bushes.tone);
         let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
         let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
         shaded.mixed(&bush, 0.85 * bushes.share)
     }
 
     /// Bushes and boulders on gentle ground of materials.
-    fn scattered(&self, spot: &SurfacePoint, texture: &Texture, steep: f32) -> Canopy {
+    fn scattered(&self, spot: &SurfacePoint, texture: &Texture) -> Canopy {
         let patchy = texture.broad + 0.6 * texture.fine.value;
-        let density = SCATTERED * ramp(patchy, -0.35, 0.5) * (1.0 - steep);
-        let [x, y, _] = spot.point;
-        canopy([SMALLER * x, SMALLER * y], density, SMALLER * spot.footprint, self.sun)
+        let density = SCATTERED * ramp(patchy, -1.4, 0.8) * (1.0 - ramp(spot.slope, BUSHY[0], BUSHY[1]));
+        let footprint = SMALLER * spot.footprint;
+        let point = [SMALLER * spot.point[0], SMALLER * spot.point[1]];
+        canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, self.sun)
     }
 }

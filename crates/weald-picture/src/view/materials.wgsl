@@ -8,12 +8,17 @@ const BLOCKS = vec2<f32>(0.6, 1.3);
 const BEDDED = vec2<f32>(0.5, 1.2);
 const MINGLED = vec2<f32>(3.0, 0.3);
 
-// How many times smaller than trees bushes and boulders are, how densely they lie at most, and how much light the
-// one and the other send back beside the material that they stand on.
-const SMALLER = 1.1;
-const SCATTERED = 0.6;
-const BUSH = vec3<f32>(0.34, 0.42, 0.28);
-const BOULDER = vec3<f32>(1.25, 1.2, 1.15);
+// Longest wavelength of the grain of a steep face over the thickness of a bed.
+const GRAINED = 1.8;
+
+// How many times smaller than trees bushes and boulders are, how densely they lie at most, the slopes from which they are fewer and
+// from which there are none, those from which there are more and more boulders, how much light bushes send back, and boulders beside the material that they lie on.
+const SMALLER = 0.8;
+const SCATTERED = 0.95;
+const BUSHY = vec2<f32>(0.6, 0.95);
+const LOOSE = vec2<f32>(0.3, 0.6);
+const BUSH = vec3<f32>(0.092, 0.102, 0.046);
+const BOULDER = vec3<f32>(0.9, 0.88, 0.86);
 
 // Colour of the material at a place.
 fn material_at(place: vec2<f32>) -> vec3<f32> {
@@ -32,31 +37,44 @@ fn torn(texture: Texture) -> f32 {
 }
 
 // Bushes and boulders on gentle ground of materials: the share that they hide, and the light that they leave beside them.
-fn scattered(spot: SurfacePoint, texture: Texture, steep: f32) -> Canopy {
-    let density = SCATTERED * ramp(texture.broad + 0.6 * texture.fine.value, -0.35, 0.5) * (1.0 - steep);
-    return canopy_of(SMALLER * spot.point.xy, density, SMALLER * spot.footprint);
+fn scattered(spot: SurfacePoint, texture: Texture) -> Canopy {
+    let patchy = ramp(texture.broad + 0.6 * texture.fine.value, -1.4, 0.8);
+    let density = SCATTERED * patchy * (1.0 - ramp(spot.slope, BUSHY.x, BUSHY.y));
+    let footprint = SMALLER * spot.footprint;
+    let seen = seen_crown(SMALLER * spot.point.xy, density, footprint, aslant(spot));
+    return canopy_of(seen, density, footprint);
+}
+
+// Noise of a steep face, on the upright planes beside it: on the level plane it would be drawn out downward.
+fn grain_of_wall(spot: SurfacePoint, thick: f32) -> f32 {
+    let octaves = Octaves(GRAINED * thick, 6u, 0.6, 0x17u);
+    let shares = spot.fall * spot.fall;
+    let on_east = octaves_at(octaves, spot.point.yz, spot.footprint).value;
+    return shares.x * on_east + shares.y * octaves_at(octaves, spot.point.xz, spot.footprint).value;
 }
 
 fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, BEDDED.x, BEDDED.y);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
-    let fine = (0.4 - 0.25 * steep) * texture.fine.value + 1.1 * steep * texture.crags.height;
-    let tones = 0.9 * bedding.thick.tone + 1.1 * bedding.thin.tone;
-    let bedded = tones - 0.7 * bedding.thick.joint - 0.6 * bedding.thin.joint;
+    let tones = 0.8 * bedding.thick.tone + 0.8 * bedding.thin.tone;
+    let bedded = tones - 0.35 * bedding.thick.joint - 0.25 * bedding.thin.joint;
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
+    var grained = 0.0;
     if steep > 0.0 {
         blocks = rock_fractures(spot, texture, false);
+        grained = grain_of_wall(spot, thick);
     }
+    let fine = 0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
     let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
-    let bushes = scattered(spot, texture, steep);
+    let bushes = scattered(spot, texture);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
     let shaded = SurfaceSample(albedo * (tone * bushes.open), bump, kinds);
-    let kind = mix(BUSH, BOULDER, ramp(bushes.chance, 0.55, 0.65));
-    let bush = SurfaceSample(kind * albedo * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
+    let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + 0.7 * ramp(spot.slope, LOOSE.x, LOOSE.y), 0.8, 0.88));
+    let bush = SurfaceSample(kind * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
     return mixed(shaded, bush, 0.85 * bushes.share);
 }

@@ -31,7 +31,7 @@ const FULL: f32 = 0.9;
 const OFF: f32 = 0.35;
 
 /// Height of the dome of a crown beside its radius, and of a group of them.
-const STEEP: [f32; 2] = [0.36, 0.24];
+const STEEP: [f32; 2] = [0.36, 0.15];
 
 /// Boughs, by which the rims of crowns are ragged: their longest wavelength in metres, how far a rim is moved by their slope,
 /// and what they add to the tone and the slope of a crown.
@@ -41,13 +41,13 @@ const LEAFY: [f32; 2] = [0.45, 0.35];
 
 /// Wavelengths in spacings by which crowns and groups of them are told from each other: where a crown is a pixel or two, woods
 /// would be speckled.
-const TOLD: [f32; 2] = [0.85, 1.35];
+const TOLD: [f32; 2] = [1.0, 1.35];
 
 /// How much lighter or darker one group of crowns is than another.
-const UNLIKE: f32 = 0.4;
+const UNLIKE: f32 = 0.3;
 
 /// Tone of what grows below crowns, where one sees down to it.
-const BELOW: f32 = 0.26;
+const BELOW: f32 = 0.3;
 
 /// By how much more than evenly broad crowns are many in a stand of a middle age.
 pub(super) const MIDDLE_AGE: f32 = 1.35;
@@ -204,7 +204,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
         // The finest that is seen counts most.
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
-        lumps += weight * (group.height - 0.45 + UNLIKE * (group.chance - 0.5));
+        lumps += weight * (0.7 * (group.height - 0.45) + UNLIKE * (group.chance - 0.5));
         chance += weight * 0.7 * (group.chance - 0.5);
         let along = [
             turn[0] * group.slope[0] + turn[1] * group.slope[1],
@@ -256,7 +256,7 @@ fn crowns(
     let length = (SHADE[0] * run / sun[2].max(1e-3)).min(SHADE[1]) / run;
     let shaded = dome([place[0] + length * sun[0], place[1] + length * sun[1]], SEED, [density, age]);
     let dark = (4.0 * shaded.height).min(1.0) * (1.0 - within);
-    let tone = 0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY[0] * value;
+    let tone = 0.35 + 0.36 * tree.height + 0.22 * (tree.chance - 0.5) + LEAFY[0] * value;
     Canopy {
         share: within + (1.0 - within) * floor,
         tone: within * tone + (1.0 - within) * BELOW,

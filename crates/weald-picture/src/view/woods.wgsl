@@ -4,7 +4,7 @@
 const WOOD_SPACING = 7.0;
 
 // Wavelengths in spacings by which crowns and groups of them are told from each other.
-const WOOD_TOLD = vec2<f32>(0.85, 1.35);
+const WOOD_TOLD = vec2<f32>(1.0, 1.35);
 
 const WOOD_LAYERS = 4u;
 const WOOD_COARSER = 2.6;
@@ -12,7 +12,7 @@ const WOOD_SEED = 0x41u;
 const CROWN_RADII = vec2<f32>(0.24, 0.64);
 const CROWN_OFF = 0.35;
 const WOOD_FULL = 0.9;
-const CROWN_STEEP = vec2<f32>(0.36, 0.24);
+const CROWN_STEEP = vec2<f32>(0.36, 0.15);
 const CROWN_SHADE = vec2<f32>(0.7, 1.1);
 const BOUGHS = 4.5;
 const BOUGHS_MOVED = 1.9;
@@ -21,7 +21,7 @@ const LEAFY = vec2<f32>(0.45, 0.35);
 const TALLEST = 17.0;
 
 // Tone of what grows below crowns, where one sees down to it.
-const WOOD_BELOW = 0.26;
+const WOOD_BELOW = 0.3;
 
 // By how much more than evenly broad crowns are many, in a stand of a middle age.
 const MIDDLE_AGE = 1.35;
@@ -111,7 +111,7 @@ fn dome(place: vec2<f32>, seed: u32, density: f32, age: f32) -> Dome {
 }
 
 // How much lighter or darker one group of crowns is than another.
-const WOOD_UNLIKE = 0.4;
+const WOOD_UNLIKE = 0.3;
 
 // A place, or the direction that was eastward, on a lattice that is turned by 37 degrees.
 fn turned_lattice(place: vec2<f32>) -> vec2<f32> {
@@ -147,7 +147,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
         let group = dome(place / spacing, WOOD_SEED + layer, GROUPS.x, GROUPS.y);
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
-        lumps += weight * (group.height - 0.45 + WOOD_UNLIKE * (group.chance - 0.5));
+        lumps += weight * (0.7 * (group.height - 0.45) + WOOD_UNLIKE * (group.chance - 0.5));
         chance += weight * 0.7 * (group.chance - 0.5);
         let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
         slope += weight * CROWN_STEEP.y * along;
@@ -192,7 +192,7 @@ fn crowns(point: vec2<f32>, density: f32, between: f32, stand: f32, footprint: f
     let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
     return Canopy(
         within + (1.0 - within) * between,
-        within * (0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY.x * boughs.value) +
+        within * (0.35 + 0.36 * tree.height + 0.22 * (tree.chance - 0.5) + LEAFY.x * boughs.value) +
             (1.0 - within) * WOOD_BELOW,
         within * (CROWN_STEEP.x * tree.slope + LEAFY.y * boughs.slope),
         1.0 - 0.55 * dark,
