@@ -51,7 +51,8 @@ impl Cover {
         let fold = 0.3 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
         let grained = if steep > 0.0 { Self::grain_of_wall(spot, thick) } else { 0.0 };
-        let fine = 0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
+        let fine =
+            0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
         let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
@@ -82,7 +83,8 @@ impl Cover {
         (material, ground): (Linear, &SurfaceSample),
     ) -> SurfaceSample {
         let bushes = self.scattered(spot, texture);
-        let kind = mix(BUSH, filter(BOULDER, material), ramp(bushes.chance + 0.7 * ramp(spot.slope, LOOSE[0], LOOSE[1]), 0.8, 0.88));
+        let loose = 0.7 * ramp(spot.slope, LOOSE[0], LOOSE[1]);
+        let kind = mix(BUSH, filter(BOULDER, material), ramp(bushes.chance + loose, 0.8, 0.88));
         let albedo = scale(kind, 0.35 + bushes.tone);
         let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
         let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
@@ -96,5 +98,37 @@ impl Cover {
         let footprint = SMALLER * spot.footprint;
         let point = [SMALLER * spot.point[0], SMALLER * spot.point[1]];
         canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, self.sun)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grain_of_a_wall_changes_as_fast_downward_as_along_it() {
+        // A wall that falls to the east, with north along it.
+        let at = |[along, down]: [f32; 2]| {
+            let spot = SurfacePoint {
+                place: [0.0; 2],
+                point: [0.1 * down, along, -down],
+                slope: 10.0,
+                fall: [1.0, 0.0],
+                footprint: 0.5,
+                sight: [1.0, 0.0, 0.3],
+                above: 100.0,
+                beach: 0.0,
+            };
+            Cover::grain_of_wall(&spot, 10.0)
+        };
+        let change = |step: [f32; 2]| {
+            let leaps = (0..4000).map(|number| {
+                let place = step.map(|metres| 1.7 * metres * number as f32);
+                (at([0, 1].map(|axis| place[axis] + step[axis])) - at(place)).abs()
+            });
+            leaps.sum::<f32>() / 4000.0
+        };
+        let [along, down] = [change([1.0, 0.0]), change([0.0, 1.0])];
+        assert!(along > 0.02 && (0.8..1.25).contains(&(down / along)), "{down} downward, {along} along");
     }
 }

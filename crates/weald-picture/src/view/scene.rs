@@ -356,6 +356,24 @@ mod tests {
     }
 
     #[test]
+    fn each_of_many_rays_shows_what_is_half_as_large_as_a_pixel() {
+        let seen = |samples: u32| {
+            let mut marcher = marcher(&View { samples, ..low_sun() }, 60, |_, _| 0.0, -1.0);
+            let first = marcher.footprint(1000.0);
+            let camera = marcher.scene().camera();
+            marcher.look_from(camera, [2 * marcher.pixels[0], 2 * marcher.pixels[1]]);
+            [first, marcher.footprint(1000.0)]
+        };
+        let one = seen(1);
+        assert!((one[0] / one[1] - 2.0).abs() < 0.05, "{one:?}");
+        for (samples, share) in [(2, std::f32::consts::FRAC_1_SQRT_2), (4, 0.5), (6, 0.5)] {
+            for (many, one) in seen(samples).into_iter().zip(one) {
+                assert!((many / one - share).abs() < 1e-3, "{samples} rays: {many} of {one} m");
+            }
+        }
+    }
+
+    #[test]
     fn light_on_an_open_plain_is_that_of_sun_and_sky() {
         let marcher = marcher(&low_sun(), 60, |_, _| 0.0, -1.0);
         let point = [300.0, -400.0, 0.0];
