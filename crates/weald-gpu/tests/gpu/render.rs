@@ -224,13 +224,14 @@ fn shadows_lie_where_the_ray_marched_view_has_them() {
     let Some(gpu) = gpu() else { return };
     let landscape = mountains();
     for altitude in [14.0, 30.0] {
-        let view = View { sun_altitude_deg: altitude, azimuth_deg: 120.0, ..view() };
+        // One ray a pixel, as a device shades it once: many show crags that are finer than a pixel.
+        let view = View { sun_altitude_deg: altitude, azimuth_deg: 120.0, samples: 1, ..view() };
         let scene = LitScene::new(&view, &landscape).expect("a scene");
         let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 60.0);
         for camera in [None, Some(low)] {
             let (mean, worst) = distances(&gpu, &view, &landscape, camera);
-            // Crags throw shadows that are finer than the texels of a cascade.
-            assert!(mean < 0.005 && worst < 0.02, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
+            // Crags throw shadows that are finer than the texels of a cascade, and edges of one ray a pixel are ragged.
+            assert!(mean < 0.005 && worst < 0.022, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
         }
     }
 }
