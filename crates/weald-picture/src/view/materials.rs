@@ -2,7 +2,6 @@
 
 use super::cover::{Cover, STEEPEST_ROCK};
 use super::crown_relief::seen_crown;
-use super::fractures::Fractures;
 use super::ground_kinds::{SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, STEEPEST_CROWN, Texture, no_steeper};
 use super::vector::{filter, ramp, scale};
@@ -23,12 +22,19 @@ const MINGLED: [f32; 2] = [3.0, 0.3];
 /// Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED: f32 = 1.8;
 
-/// How many times smaller than trees bushes and boulders are, how densely they lie at most, the slopes from which they are fewer and
-/// from which there are none, those from which there are more and more boulders, how much light bushes send back, and boulders beside the material that they lie on.
-const SMALLER: f32 = 0.8;
+/// Spacing of trees over that of bushes and boulders, which stand farther apart and are as much broader.
+const CLOSER: f32 = 0.8;
+
+/// Share of the places for bushes and boulders that are taken where they are densest.
 const SCATTERED: f32 = 0.95;
+
+/// Slopes from which they become fewer, and from which there are none: 31° and 44°.
 const BUSHY: [f32; 2] = [0.6, 0.95];
+
+/// Slopes from which more and more of them are boulders: 17° and 31°.
 const LOOSE: [f32; 2] = [0.3, 0.6];
+
+/// Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH: Linear = [0.092, 0.102, 0.046];
 const BOULDER: Linear = [0.9, 0.88, 0.86];
 
@@ -50,10 +56,13 @@ impl Cover {
         let thick = 0.03 * self.limits.relief.max(1e-3);
         let fold = 0.3 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
-        let grained = if steep > 0.0 { Self::grain_of_wall(spot, thick) } else { 0.0 };
+        let (blocks, grained) = if steep > 0.0 {
+            (self.fractures(spot, texture, false), Self::grain_of_wall(spot, thick))
+        } else {
+            Default::default()
+        };
         let fine =
             0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
-        let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
@@ -95,8 +104,8 @@ impl Cover {
     fn scattered(&self, spot: &SurfacePoint, texture: &Texture) -> Canopy {
         let patchy = texture.broad + 0.6 * texture.fine.value;
         let density = SCATTERED * ramp(patchy, -1.4, 0.8) * (1.0 - ramp(spot.slope, BUSHY[0], BUSHY[1]));
-        let footprint = SMALLER * spot.footprint;
-        let point = [SMALLER * spot.point[0], SMALLER * spot.point[1]];
+        let footprint = CLOSER * spot.footprint;
+        let point = [CLOSER * spot.point[0], CLOSER * spot.point[1]];
         canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, self.sun)
     }
 }

@@ -11,12 +11,15 @@ const MINGLED = vec2<f32>(3.0, 0.3);
 // Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED = 1.8;
 
-// How many times smaller than trees bushes and boulders are, how densely they lie at most, the slopes from which they are fewer and
-// from which there are none, those from which there are more and more boulders, how much light bushes send back, and boulders beside the material that they lie on.
-const SMALLER = 0.8;
+// Spacing of trees over that of bushes and boulders; the share of the places for them that are taken where they are densest.
+const CLOSER = 0.8;
 const SCATTERED = 0.95;
+
+// Slopes from which they become fewer and from which there are none, and from which more and more of them are boulders.
 const BUSHY = vec2<f32>(0.6, 0.95);
 const LOOSE = vec2<f32>(0.3, 0.6);
+
+// Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH = vec3<f32>(0.092, 0.102, 0.046);
 const BOULDER = vec3<f32>(0.9, 0.88, 0.86);
 
@@ -40,8 +43,8 @@ fn torn(texture: Texture) -> f32 {
 fn scattered(spot: SurfacePoint, texture: Texture) -> Canopy {
     let patchy = ramp(texture.broad + 0.6 * texture.fine.value, -1.4, 0.8);
     let density = SCATTERED * patchy * (1.0 - ramp(spot.slope, BUSHY.x, BUSHY.y));
-    let footprint = SMALLER * spot.footprint;
-    let seen = seen_crown(SMALLER * spot.point.xy, density, footprint, aslant(spot));
+    let footprint = CLOSER * spot.footprint;
+    let seen = seen_crown(CLOSER * spot.point.xy, density, footprint, aslant(spot));
     return canopy_of(seen, density, footprint);
 }
 
@@ -74,7 +77,8 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let bushes = scattered(spot, texture);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
     let shaded = SurfaceSample(albedo * (tone * bushes.open), bump, kinds);
-    let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + 0.7 * ramp(spot.slope, LOOSE.x, LOOSE.y), 0.8, 0.88));
+    let loose = 0.7 * ramp(spot.slope, LOOSE.x, LOOSE.y);
+    let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + loose, 0.8, 0.88));
     let bush = SurfaceSample(kind * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
     return mixed(shaded, bush, 0.85 * bushes.share);
 }

@@ -22,11 +22,8 @@ pub struct RayMarcher {
     scene: LitScene,
     pixels: [usize; 2],
     samples: Vec<[f32; 2]>,
-    pixel_angle: f32,
+    ray_angle: f32,
 }
-
-/// Rays of a pixel beyond which more do not show finer detail: they lie in a square of two by two.
-const MOST_BESIDE: usize = 4;
 
 /// A point of dry ground that is looked at.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +60,13 @@ impl Deref for RayMarcher {
     }
 }
 
-/// The share of a pixel's width that a ray stands for where a pixel has so many: rays side by side show what is finer than a
-/// pixel, and what each of them leaves out would be blurred twice.
-fn angle_of_ray(rays: usize) -> f32 {
-    1.0 / (rays.min(MOST_BESIDE) as f32).sqrt()
+/// Rays of a pixel beyond which more of them do not show finer detail.
+const MOST_BESIDE: usize = 4;
+
+/// The angle in radians that a ray stands for where a pixel has so many: a pixel's over the root of their number. Filtered
+/// over a whole pixel each, their mean would be blurred twice.
+fn ray_angle(camera: &Camera, width: usize, rays: usize) -> f32 {
+    camera.pixel_angle(width) / (rays.min(MOST_BESIDE) as f32).sqrt()
 }
 
 impl RayMarcher {
@@ -79,14 +79,15 @@ impl RayMarcher {
         };
         let pixels = [view.width as usize, view.height as usize];
         let samples = camera::samples(view.samples);
-        let pixel_angle = angle_of_ray(samples.len()) * scene.camera.pixel_angle(pixels[0]);
-        Ok(Self { scene, pixels, samples, pixel_angle })
+        let ray_angle = ray_angle(&scene.camera, pixels[0], samples.len());
+        Ok(Self { scene, pixels, samples, ray_angle })
     }
 
     /// For pictures of a scene that are made row by row, of one ray a pixel; the camera is that of the scene.
     pub fn of(scene: LitScene, pixels: [usize; 2]) -> Self {
-        let pixel_angle = scene.camera.pixel_angle(pixels[0]);
-        Self { scene, pixels, samples: camera::samples(1), pixel_angle }
+        let samples = camera::samples(1);
+        let ray_angle = ray_angle(&scene.camera, pixels[0], samples.len());
+        Self { scene, pixels, samples, ray_angle }
     }
 
     /// The scene.
@@ -98,7 +99,7 @@ impl RayMarcher {
     pub fn look_from(&mut self, camera: Camera, pixels: [usize; 2]) {
         self.scene.look_from(camera);
         self.pixels = pixels;
-        self.pixel_angle = angle_of_ray(self.samples.len()) * camera.pixel_angle(pixels[0]);
+        self.ray_angle = ray_angle(&camera, pixels[0], self.samples.len());
     }
 
     /// The bytes of a row of pixels from left to right, red, green and blue of each; row 0 is the uppermost.
@@ -135,7 +136,7 @@ impl RayMarcher {
             return around.map_or_else(|| self.plain(ray), |around| self.farthest(around, ray));
         }
         let radiance = self.haze.before_sky(self.sky.radiance_with_sun(ray.direction), ray, &self.sky);
-        self.with_clouds(ray, radiance, self.pixel_angle)
+        self.with_clouds(ray, radiance, self.ray_angle)
     }
 
     /// The sky along a ray, with the clouds before it, where such an angle in radians is seen as one.
@@ -178,7 +179,7 @@ impl RayMarcher {
     }
 
     pub(super) fn footprint(&self, ray_length: f32) -> f32 {
-        ray_length * self.pixel_angle
+        ray_length * self.ray_angle
     }
 
     /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free, through the
@@ -356,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn each_of_many_rays_shows_what_is_half_as_large_as_a_pixel() {
+    fn each_of_many_rays_stands_for_its_share_of_a_pixel() {
         let seen = |samples: u32| {
             let mut marcher = marcher(&View { samples, ..low_sun() }, 60, |_, _| 0.0, -1.0);
             let first = marcher.footprint(1000.0);
