@@ -296,16 +296,31 @@ impl Drawing<'_> {
         self.ink([x, y], width, |slice| slice.tops.get(material).copied())
     }
 
-    /// Ink of a line of so many pixels at a height of each slice.
+    /// Ink of a line of so many pixels through a height of each slice.
     fn ink(&self, [x, y]: [usize; 2], width: f32, height: impl Fn(&Slice) -> Option<f32>) -> f32 {
+        let reach = 0.5 * width * self.frame.line() + 0.5;
         let row = |x: usize| height(&self.slices[x]).map(|height| self.frame.row(f64::from(height)));
         let Some(here) = row(x) else { return 0.0 };
-        let left = x.checked_sub(1).and_then(row).unwrap_or(here);
-        let right = Some(x + 1).filter(|&x| x < self.slices.len()).and_then(row).unwrap_or(here);
-        let slope = (here - left).abs().max((right - here).abs());
-        let distance = (y as f32 + 0.5 - here).abs() / (1.0 + slope * slope).sqrt();
-        (0.5 * width * self.frame.line() + 0.5 - distance).clamp(0.0, 1.0)
+        let middle = [x as f32, y as f32 + 0.5];
+        let own = (middle[1] - here).abs();
+        let cells = reach.ceil() as usize;
+        let segments = x.saturating_sub(cells)..(x + cells).min(self.slices.len() - 1);
+        let nearest = segments.fold(own, |nearest, left| match (row(left), row(left + 1)) {
+            (Some(start), Some(end)) => {
+                nearest.min(to_segment(middle, [left as f32, start], [left as f32 + 1.0, end]))
+            }
+            _ => nearest,
+        });
+        (reach - nearest).clamp(0.0, 1.0)
     }
+}
+
+/// Distance of a point from the segment between two others.
+fn to_segment([x, y]: [f32; 2], [left, start]: [f32; 2], [right, end]: [f32; 2]) -> f32 {
+    let (across, up) = (right - left, end - start);
+    let along = ((x - left) * across + (y - start) * up) / (across * across + up * up).max(f32::MIN_POSITIVE);
+    let along = along.clamp(0.0, 1.0);
+    (x - left - along * across).hypot(y - start - along * up)
 }
 
 /// Smooth random values from 0 to 1, one a square.
@@ -350,6 +365,26 @@ mod tests {
         for [before, after] in [[[0.9999, 0.5], [1.0, 0.5]], [[2.5, 3.9999], [2.5, 4.0]]] {
             assert!((noise(3, before) - noise(3, after)).abs() < 1e-3, "at {after:?}");
         }
+    }
+
+    #[test]
+    fn the_line_of_a_cliff_does_not_stand_out_over_its_edge() {
+        use weald_core::domain::Domain;
+        use weald_core::grid::{Field, Size};
+        // About a pixel a cell, so that the cliff falls by many pixels in one.
+        let size = Size::new(1200, 1).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 1.0));
+        let ground = |x: usize, _| [40.0, 30.0, 5.0][usize::from(x >= 100) + usize::from(x >= 600)];
+        landscape.insert("height", "m", Field::from_function(size, ground));
+        let image = Section::default().render(&landscape).expect("draws");
+        let inked = |x: usize| {
+            let is_dark = |y: &usize| image.pixel(x, *y).iter().all(|&channel| channel < 120);
+            (0..image.height).find(is_dark).expect("the ground has an edge")
+        };
+        let flat = inked(400);
+        let highest = (300..image.width).map(inked).min().expect("columns");
+        assert!(flat.abs_diff(highest) <= 1, "the line is at {flat} and comes up to {highest}");
+        assert!(inked(image.width - 10) > flat + 20, "the cliff is high");
     }
 
     #[test]

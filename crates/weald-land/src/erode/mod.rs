@@ -8,7 +8,7 @@
 
 mod advection;
 mod advection_rows;
-mod bare_softness;
+mod bare_material;
 mod coarse_landscape;
 pub mod coast;
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //!
 //! What differs: receivers are found between points that lie off the middles of their cells (`mesh`), rivers run through lakes
 //! (`lakes`), A is at least that from which on there is a river, so that ridges do not depend on the cell, rivers carry off what
-//! creeps into them (`creep`), slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass through the files: receivers, lakes, the order of cells
+//! creeps into them (`creep`), slopes stand at a critical slope or at the talus of their material at most, and lakes and sea trap sediment (`incise`). A step of time is one pass through the files: receivers, lakes, the order of cells
 //! along the rivers with their areas, incision, creep. Its cost is linear in the cells, and its result the same for any number
 //! of threads: they share rows where cells do not depend on each other, and rivers are followed by one.
 
@@ -54,6 +54,8 @@ pub(super) struct Conditions {
     pub(super) creep: f64,
     /// Steepest slope that stands, as a tangent.
     pub(super) critical: f64,
+    /// The same for each cell, where materials stand at slopes of their own.
+    pub(super) taluses: Option<Field>,
     /// Height of the sea in metres.
     pub(super) sea_level: Option<f64>,
     /// Whether sediment settles in lakes as it does in the sea.
@@ -75,6 +77,8 @@ pub(super) struct Evolution {
     order: Order,
     area: Vec<f64>,
     power: Vec<f32>,
+    /// Steepest slope that stands in each cell, where that is not the same everywhere.
+    steepest: Vec<f32>,
     raised: Vec<f64>,
     /// What has crept into each river, in metres over its cell.
     crept: Vec<f64>,
@@ -114,6 +118,7 @@ impl Evolution {
             order: Order::none(cells),
             area: vec![0.0; cells],
             power: vec![0.0; cells],
+            steepest: Vec::new(),
             raised: heights.clone(),
             crept: vec![0.0; cells],
             water: Lakes::none(&mesh),
@@ -132,6 +137,7 @@ impl Evolution {
     pub(super) fn step(&mut self, conditions: &Conditions) -> Volumes {
         self.lead_rivers(conditions.sea_level);
         self.gather_power(conditions);
+        self.gather_taluses(conditions);
         let uplifted = self.raise(&conditions.uplift);
         let risen = self.total(&self.raised);
         self.creep(conditions);
@@ -155,6 +161,7 @@ impl Evolution {
             crept: &self.crept,
             water: self.water.stand.then_some(&self.water.level),
             power: &self.power,
+            steepest: conditions.taluses.is_some().then_some(&self.steepest),
         };
         law.incise(&rivers, &mut self.heights, &mut self.spare);
         Volumes { uplifted, outgoing: risen - self.total(&self.heights) }
@@ -200,6 +207,19 @@ impl Evolution {
                 let area = area.max(hillslope) as f32;
                 let of_area = if m == 0.5 { area.sqrt() } else { libm::powf(area, m as f32) };
                 *power = erodibility * of_area;
+            }
+        });
+    }
+
+    /// The steepest slopes of cells, where they have their own.
+    fn gather_taluses(&mut self, conditions: &Conditions) {
+        let Some(taluses) = &conditions.taluses else { return };
+        let critical = conditions.critical as f32;
+        self.steepest.resize(self.mesh.cells(), critical);
+        let rows = self.steepest.par_chunks_mut(self.mesh.stride).skip(1);
+        rows.take(self.mesh.size.rows).enumerate().for_each(|(y, steepest)| {
+            for (steepest, &talus) in steepest[1..].iter_mut().zip(taluses.row(y)) {
+                *steepest = talus.min(critical);
             }
         });
     }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::bare_softness::BareSoftness;
+use super::bare_material::BareMaterial;
 use super::coarse_landscape::Seen;
 use super::fluvial_levels::{self as levels, refined};
 use super::fluvial_materials::StartColumn;
@@ -98,7 +98,7 @@ struct Level<'a> {
     start: &'a Field,
     /// Uplift in m/a.
     uplift: Field,
-    column: Option<BareSoftness>,
+    column: Option<BareMaterial>,
     /// What makes the seed of this level another one.
     number: u64,
 }
@@ -118,7 +118,7 @@ impl<'a> Level<'a> {
             }
             None => Field::filled(start.size(), rate as f32),
         };
-        let column = step.materials.then(|| BareSoftness::of(landscape, start)).transpose()?;
+        let column = step.materials.then(|| BareMaterial::of(landscape, start)).transpose()?;
         let (years, steps) = (years(step, level, grids), step.steps(level, grids));
         Ok(Self { step, landscape, years, steps, start, uplift, column, number: u64::from(level) })
     }
@@ -137,7 +137,7 @@ impl<'a> Level<'a> {
         while done < self.steps {
             self.stop_or_checkpoint(&evolution, reached, (done, job.watcher))?;
             if let Some(column) = &self.column {
-                conditions.erodibility = self.erodibility(Some((column, &evolution, done)))?;
+                self.lay_bare((column, &evolution, done), &mut conditions)?;
             }
             let volumes = evolution.step(&conditions);
             reached.uplifted += volumes.uplifted * area;
@@ -195,21 +195,22 @@ impl<'a> Level<'a> {
         let uplift = self.uplift.values().iter().map(|&rate| (f64::from(rate) * years) as f32).collect();
         Ok(Conditions {
             uplift: Field::from_values(self.uplift.size(), uplift),
-            erodibility: self.erodibility(None)?,
+            erodibility: self.erodibility()?,
             area_exponent: step.area_exponent,
             hillslope_area: step.hillslope_area,
             slope_exponent: step.slope_exponent,
             deposition: step.deposition,
             creep: step.creep * years,
             critical: libm::tan(step.critical_slope_deg.to_radians()),
+            taluses: None,
             sea_level: self.landscape.domain.sea_level,
             lakes_fill: step.lakes == Lakes::Silted,
             settling: step.settling_length,
         })
     }
 
-    /// K dt of each cell, by what lies bare there after so many steps.
-    fn erodibility(&self, bare: Option<(&BareSoftness, &Evolution, u64)>) -> Result<Field, Error> {
+    /// K dt of each cell, were it all of bedrock.
+    fn erodibility(&self) -> Result<Field, Error> {
         let rate = (self.step.erodibility * self.years.a_step) as f32;
         let map = self.step.erodibility_map.as_ref();
         let map = map.map(|LayerName(name)| self.landscape.field(name)).transpose()?;
@@ -217,12 +218,27 @@ impl<'a> Level<'a> {
         if let Some(map) = map {
             field.values_mut().iter_mut().zip(map.values()).for_each(|(rate, &map)| *rate *= map.max(0.0));
         }
-        if let Some((softness, evolution, done)) = bare {
-            let worn = self.worn(&evolution.heights(), self.years.before + done as f64 * self.years.a_step);
-            let cells = field.values_mut().par_iter_mut().zip(&worn).enumerate();
-            cells.for_each(|(cell, (rate, &worn))| *rate *= softness.at(cell, worn));
-        }
         Ok(field)
+    }
+
+    /// Conditions by the material that lies bare in each cell after so many steps.
+    fn lay_bare(
+        &self,
+        (column, evolution, done): (&BareMaterial, &Evolution, u64),
+        conditions: &mut Conditions,
+    ) -> Result<(), Error> {
+        let worn = self.worn(&evolution.heights(), self.years.before + done as f64 * self.years.a_step);
+        let mut erodibility = self.erodibility()?;
+        let mut taluses = Field::filled(self.start.size(), 0.0);
+        let cells = erodibility.values_mut().par_iter_mut().zip(taluses.values_mut()).zip(&worn);
+        cells.enumerate().for_each(|(cell, ((rate, talus), &worn))| {
+            let bare = column.at(cell, worn);
+            *rate *= bare.softness;
+            *talus = bare.talus;
+        });
+        conditions.erodibility = erodibility;
+        conditions.taluses = Some(taluses);
+        Ok(())
     }
 
     /// Metres that the ground has lost of what it was and rose to in so many years; below 0 what it has gained.

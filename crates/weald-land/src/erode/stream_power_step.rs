@@ -68,7 +68,8 @@ parameters! {
         /// Layer that multiplies the erodibility: 0.1 for hard, 10 for soft ground. Default: 1 everywhere.
         erodibility_map: Option<LayerName> = None;
         /// Whether each material wears in its own way: `erodibility` is then that of the bedrock, and those of the others
-        /// stand to it as theirs do. What rivers lay down counts as the last material.
+        /// stand to it as theirs do, and slopes of each stand at its talus at most: hard beds as cliffs above soft ones. What
+        /// rivers lay down counts as the last material.
         materials: bool = false;
         /// Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
         area_exponent: f64 = 0.5, range 0.0..=2.0;
@@ -81,7 +82,7 @@ parameters! {
         deposition: f64 = 0.0, range 0.0..=10.0;
         /// Creep of soil (D), which rounds ridges.
         creep: f64 = 0.01, range 0.0..=1000.0, unit "m²/a";
-        /// Steepest slope that stands; what is steeper slides down to it.
+        /// Steepest slope that stands, of whatever material; what is steeper slides down to it.
         critical_slope_deg: f64 = 40.0, range 1.0..=89.0, unit "deg";
         /// Years of one step of time. Default: a two-hundredth of the duration.
         time_step: Option<f64> = None, range 0.001..=10_000_000_000.0, unit "a";

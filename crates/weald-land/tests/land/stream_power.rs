@@ -165,6 +165,47 @@ fn soft_beds_wear_faster_and_what_is_left_of_them_lies_where_it_lay() {
 }
 
 #[test]
+fn a_hard_bed_stands_as_a_cliff_over_a_soft_one_that_lies_back() {
+    // A plateau of 3.2 km that rises by 600 m: soft ground with a hard bed on it, 100 m thick.
+    let size = Size { columns: 128, rows: 128 };
+    let mut landscape = Landscape::new(Domain::new(size, 25.0));
+    let noise = |x: usize, y: usize| signed2(5, x as i64, y as i64) as f32;
+    landscape.insert("height", "m", Field::from_function(size, noise));
+    let rock = Material::built_in("rock").expect("built in");
+    let soft = Material { talus_deg: 30.0, ..rock.clone() };
+    let hard =
+        Material { name: "cap".to_owned(), erodibility: 0.2 * rock.erodibility, talus_deg: 65.0, ..rock };
+    landscape.materials = vec![soft, hard];
+    landscape.insert("cap", "m", Field::filled(size, 100.0));
+    let step = StreamPower {
+        duration: 800_000.0,
+        critical_slope_deg: 80.0,
+        creep: 0.0,
+        settling_length: 0.0,
+        materials: true,
+        ..StreamPower::default()
+    };
+    run(&step, &mut landscape);
+    let layer = |name: &str| landscape.field(name).expect("is there").clone();
+    let (height, cap) = (layer("height"), layer("cap"));
+    let (mut soft, mut hard) = (Vec::new(), Vec::new());
+    for (x, y) in (1..127).flat_map(|y| (1..127).map(move |x| (x, y))) {
+        let fall = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
+            .map(|(beside, row)| (height.at(x, y) - height.at(beside, row)) / 25.0);
+        let steepest = fall.into_iter().fold(0.0, f32::max).atan().to_degrees();
+        if cap.at(x, y) < 0.01 { soft.push(steepest) } else { hard.push(steepest) }
+    }
+    let nineteen_of_twenty = |slopes: &mut Vec<f32>| {
+        slopes.sort_by(f32::total_cmp);
+        slopes[slopes.len() * 19 / 20]
+    };
+    let (of_soft, of_hard) = (nineteen_of_twenty(&mut soft), nineteen_of_twenty(&mut hard));
+    assert!(soft.len() > 1000 && hard.len() > 300, "{} soft cells, {} hard ones", soft.len(), hard.len());
+    // Points between which rivers run lie off the middles of cells, so that single slopes between middles may be steeper.
+    assert!((27.0..42.0).contains(&of_soft) && of_hard > 55.0, "{of_soft}° and {of_hard}°");
+}
+
+#[test]
 fn noise_rises_to_ridges_that_know_no_axis() {
     // Of all slopes of a range from noise, as much falls along the axes as along the diagonals.
     let size = Size { columns: 256, rows: 256 };

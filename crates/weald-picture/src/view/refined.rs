@@ -16,7 +16,7 @@ use crate::texture::smoothed;
 use weald_core::grid::{Field, Size};
 
 /// Longest side of the finer ground in cells, and most of them along the side of a cell.
-const LONGEST: usize = 2048;
+const LONGEST: usize = 4096;
 const FINEST: usize = 4;
 
 /// Slope, as a share of that from which rock is bare, from which crags stand, and stand whole.
@@ -29,7 +29,7 @@ const BESIDE: f32 = 0.85;
 const CREST: [f32; 2] = [-0.02, 0.1];
 
 /// Side of a cell in metres up to which cells show all crags themselves, and from which they show none.
-const SHOWN: [f32; 2] = [4.0, 12.0];
+const SHOWN: [f32; 2] = [2.0, 6.0];
 
 /// Height of crags beside that which they are drawn with; level beds stand as walls, which crags hardly flute.
 const HIGH: f32 = 1.3;
@@ -240,9 +240,9 @@ mod tests {
     }
 
     #[test]
-    fn cells_of_a_few_metres_show_their_crags_themselves() {
+    fn cells_of_two_metres_show_their_crags_themselves() {
         let ground = slope();
-        let limits = Limits { cell: 4.0, ..LIMITS };
+        let limits = Limits { cell: 2.0, ..LIMITS };
         assert!(Coarse { limits, ..of(&ground, None) }.crags().is_none());
     }
 

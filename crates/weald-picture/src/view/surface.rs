@@ -121,11 +121,15 @@ impl Surface {
         sum(&weights(s), &sums(&across, &self.patch(x, y)))
     }
 
-    /// The value at a place by the cubic convolution of Keys 1981: it passes through the values of cells.
+    /// The value at a place by the cubic convolution of Keys 1981: it passes through the values of cells, and stays between
+    /// those of the four around, which it would overshoot beside cliffs.
     pub(super) fn keys_at(&self, place: [f32; 2]) -> f32 {
         let ([x, y], [t, s]) = self.locate(place);
         let across = keys(t);
-        sum(&keys(s), &sums(&across, &self.patch(x, y)))
+        let patch = self.patch(x, y);
+        let [a, b, c, d] = [patch[1][1], patch[1][2], patch[2][1], patch[2][2]];
+        let [low, high] = [a.min(b).min(c).min(d), a.max(b).max(c).max(d)];
+        sum(&keys(s), &sums(&across, &patch)).clamp(low, high)
     }
 
     /// The value at a place and its rise by the cell of places eastward and southward.
@@ -271,6 +275,16 @@ mod tests {
                 (coarse.with_slope(place), fine.with_slope(there));
             assert!((a - b).abs() < 1e-4, "{a} and {b}");
             assert!((east - 4.0 * less_east).abs() < 1e-3 && (south - 4.0 * less_south).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn the_convolution_does_not_overshoot_a_cliff() {
+        let size = Size::new(12, 5).expect("small");
+        let surface = Surface::new(&Field::from_function(size, |x, _| if x < 6 { 0.0 } else { 80.0 }));
+        for step in 0..200 {
+            let value = surface.keys_at([1.0 + 0.05 * step as f32, 2.3]);
+            assert!((-1e-3..=80.001).contains(&value), "{value} at {step}");
         }
     }
 

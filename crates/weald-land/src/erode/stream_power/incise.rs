@@ -8,7 +8,7 @@
 //! ```
 //!
 //! which has a closed form for n = 1 and 2, and one root that Newton's method nears from one side for any other n. What is
-//! steeper than the critical slope slides down to it. Under water nothing is taken up.
+//! steeper than the critical slope, or than the talus of its material, slides down to that. Under water nothing is taken up.
 //!
 //! In lakes and in the sea a share of the flux settles in each cell, up to the level of the water: deltas grow. Rivers above
 //! see the level of the water alone, so that one sweep downstream finds it all.
@@ -51,6 +51,8 @@ pub(super) struct Rivers<'a> {
     pub(super) water: Option<&'a [f64]>,
     /// K Aᵐ dt of each cell.
     pub(super) power: &'a [f32],
+    /// Steepest slope that stands in each cell, as a tangent, where it is not the same in all.
+    pub(super) steepest: Option<&'a [f32]>,
 }
 
 /// Sweeps after which deposits count as found; they need 5 to 60.
@@ -145,7 +147,8 @@ impl Rivers<'_> {
         let steepness =
             if law.slope_exponent == 1.0 { inverse } else { libm::pow(inverse, law.slope_exponent) };
         let left = law.drop_left(before, f64::from(self.power[cell]) * steepness);
-        below + left.min(law.critical / inverse)
+        let steepest = self.steepest.map_or(law.critical, |steepest| f64::from(steepest[cell]));
+        below + left.min(steepest / inverse)
     }
 
     /// Lets settle in lakes and sea what the rivers that have cut down bring.

@@ -19,6 +19,7 @@ fn conditions(size: Size, years: f64) -> Conditions {
         deposition: 0.0,
         creep: 0.0,
         critical: 1e9,
+        taluses: None,
         sea_level: None,
         lakes_fill: false,
         settling: 0.0,
@@ -277,6 +278,27 @@ fn nothing_stands_steeper_than_the_critical_slope_and_creep_rounds_ridges() {
     };
     let rounded = evolved(&domain, &Conditions { creep: 0.05 * 20_000.0, ..slow }, 300);
     assert!(curved(&rounded) < 0.8 * curved(&steep), "{} of {}", curved(&rounded), curved(&steep));
+}
+
+#[test]
+fn each_cell_stands_at_its_own_talus_and_nowhere_above_the_critical_slope() {
+    let domain = Domain::new(Size { columns: 60, rows: 60 }, 30.0);
+    let talus = |x: usize| [0.2, 0.4, 2.0][x / 20];
+    let slow = Conditions {
+        critical: 0.6,
+        taluses: Some(Field::from_function(domain.size, |x, _| talus(x))),
+        hillslope_area: 20_000.0,
+        ..conditions(domain.size, 20_000.0)
+    };
+    let evolution = evolved(&domain, &slow, 300);
+    let mut steepest = [0.0_f64; 3];
+    for (slope, _, cell) in slopes(&evolution) {
+        let third = &mut steepest[(cell % evolution.mesh.stride - 1) / 20];
+        *third = third.max(slope);
+    }
+    for (found, expected) in steepest.into_iter().zip([0.2, 0.4, 0.6]) {
+        assert!((found - expected).abs() < 1e-4, "{steepest:?}");
+    }
 }
 
 #[test]
