@@ -27,7 +27,7 @@ pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<
     let sheet = Sheet::new(&landscape.domain, width)?;
     let (setting, sites) = Setting::new(view, landscape, GroundOf::default())?;
     let river = linear_of_hex(RIVER);
-    let above = TopView { cover: Cover::new(sites, setting.limits, OVERHEAD), setting, sheet, river };
+    let above = TopView { cover: Cover::new(sites, &setting, OVERHEAD), setting, sheet, river };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];
     rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each(|(y, row)| {
         for (x, pixel) in row.chunks_exact_mut(3).enumerate() {

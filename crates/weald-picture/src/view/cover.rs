@@ -4,9 +4,13 @@
 //! The fields of the landscape say where each has its place, at the scale of cells. Noise moves the borders by less
 //! than that, so that they are ragged as in nature and not smooth as a field.
 
+use std::sync::Arc;
+
 use super::fractures::Fractures;
 use super::ground_kinds::{Limits, Palette, SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, Texture, no_steeper};
+use super::setting::Setting;
+use super::side::Strata;
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
 use super::turf::{Turf, turf};
@@ -54,6 +58,8 @@ const SCOURED: [f32; 2] = [0.2, 0.6];
 #[derive(Debug)]
 pub(super) struct Cover {
     pub(super) sites: Sites,
+    /// The materials below the ground.
+    pub(super) strata: Arc<Strata>,
     pub(super) limits: Limits,
     pub(super) palette: Palette,
     /// Direction of the sun, away from which crowns throw their shadows.
@@ -61,8 +67,15 @@ pub(super) struct Cover {
 }
 
 impl Cover {
-    pub(super) fn new(sites: Sites, limits: Limits, sun: Vector) -> Self {
-        Self { sites, limits, palette: Palette::default(), sun }
+    /// What covers the ground of a setting under such a sun.
+    pub(super) fn new(sites: Sites, setting: &Setting, sun: Vector) -> Self {
+        Self {
+            sites,
+            strata: Arc::clone(&setting.strata),
+            limits: setting.limits,
+            palette: Palette::default(),
+            sun,
+        }
     }
 
     /// The colours of natural ground.

@@ -248,7 +248,7 @@ fn beach_at(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
 // Ground with a wood of such a density and share of conifers on it.
 fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32, conifers: f32) -> SurfaceSample {
     let seen = seen_crown(spot.point.xy, density, spot.footprint, aslant(spot));
-    let canopy = canopy_of(seen, density, spot.footprint);
+    let canopy = canopy_of(seen, density, spot.footprint, scene.sun.xyz);
     let littered = mix(open.albedo, LITTER, 0.8 * trees_drawn * ramp(density, 0.1, 0.6));
     let shaded = SurfaceSample(littered * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
     let kind = mix(LEAVES, NEEDLES, ramp(conifers - canopy.chance, -0.08, 0.08));

@@ -95,7 +95,7 @@ impl LitScene {
         let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = setting.above_ground(Camera::new(view, terrain, setting.exaggeration));
-        let cover = Cover::new(sites, setting.limits, sky.sun);
+        let cover = Cover::new(sites, &setting, sky.sun);
         // Where ground goes on to the horizon, the last of it is like the landscape.
         let plain = if setting.around.is_some() { cover.mean() } else { linear_of_hex(PLAIN) };
         let clouds = Clouds::new(view.clouds, &sky, [terrain.highest(), setting.exaggeration]);

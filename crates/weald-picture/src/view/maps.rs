@@ -59,6 +59,9 @@ const MAPS: [(&str, TextureKind, bool); 11] = [
     ("flow", TextureKind::Smooth, false),
 ];
 
+/// Channel of the strata that no material above the bedrock needs.
+const FLOOR: usize = MAX_MATERIALS - 1;
+
 /// Layers in which the light of the sky is kept: twelve numbers by four.
 const SKYLIGHT_LAYERS: usize = 3;
 
@@ -121,13 +124,16 @@ fn of_sky(light: &Skylight) -> Values {
     ([light.size.columns, light.size.rows], (0..SKYLIGHT_LAYERS).flat_map(layer).collect())
 }
 
-/// Thickness of the materials above the bedrock, lowest first, in two layers of four.
+/// Thickness of the materials above the bedrock, lowest first, in two layers of four, of which the last is the height of the bedrock.
 fn of_strata(strata: &Strata) -> Values {
     let mut values = Vec::new();
     let mut size = [1, 1];
     for layer in 0..MAX_MATERIALS.div_ceil(4) {
-        let surfaces = [0, 1, 2, 3].map(|channel| strata.materials.get(4 * layer + channel));
-        let first = smooth(surfaces.map(|material| material.map(|(thickness, _)| thickness)));
+        let channel = |channel: usize| match 4 * layer + channel {
+            FLOOR => strata.floor.as_ref(),
+            material => strata.materials.get(material).map(|(thickness, _)| thickness),
+        };
+        let first = smooth([0, 1, 2, 3].map(channel));
         if layer == 0 {
             size = first.0;
         }

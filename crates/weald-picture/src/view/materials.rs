@@ -19,23 +19,47 @@ const BEDDED: [f32; 2] = [0.5, 1.2];
 /// with edges: those of a landscape fade into each other over a cell or two.
 const MINGLED: [f32; 2] = [3.0, 0.3];
 
+/// Cells uphill of such a face whose column still has what the face has lost, and the least softness of the edge of a bed, in metres
+/// up and down.
+const UPHILL: f32 = 1.5;
+const SOFT: f32 = 0.15;
+
+/// How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
+const RAGGED: f32 = 0.25;
+
 /// Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED: f32 = 1.8;
 
-/// Spacing of trees over that of bushes and boulders, which stand farther apart and are as much broader.
-const CLOSER: f32 = 0.8;
+/// Spacing of trees over that of bushes and boulders, which stand as much closer and are as much narrower.
+const CLOSER: f32 = 1.05;
 
 /// Share of the places for bushes and boulders that are taken where they are densest.
-const SCATTERED: f32 = 0.95;
+const SCATTERED: f32 = 0.62;
+
+/// Height of trees over that of bushes: shadows are as short as those of trees under a sun that is as much higher.
+const LOWER: f32 = 2.3;
 
 /// Slopes from which they become fewer, and from which there are none: 31° and 44°.
 const BUSHY: [f32; 2] = [0.6, 0.95];
 
-/// Slopes from which more and more of them are boulders: 17° and 31°.
+/// Slopes from which more and more of them are boulders, 17° and 31°, what such slopes and rubble add to the chance that one is, and
+/// the chances from which some are, and all.
 const LOOSE: [f32; 2] = [0.3, 0.6];
+const LOOSER: f32 = 0.3;
+const BOULDERS: [f32; 2] = [0.86, 0.92];
+
+/// What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
+const PATCHES: [f32; 2] = [0.48, 0.28];
+const DETAIL: f32 = 0.6;
+
+/// Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
+/// share of bushes that do not grow on it.
+const RUBBLE_DETAIL: f32 = 0.4;
+const RUBBLE_ROUGH: [f32; 2] = [0.35, 1.2];
+const RUBBLE_BARE: f32 = 0.5;
 
 /// Share of light that bushes send back, and boulders beside the material that they lie on.
-const BUSH: Linear = [0.092, 0.102, 0.046];
+const BUSH: Linear = [0.066, 0.074, 0.034];
 const BOULDER: Linear = [0.9, 0.88, 0.86];
 
 impl Cover {
@@ -61,18 +85,36 @@ impl Cover {
         } else {
             Default::default()
         };
-        let fine =
-            0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
+        let albedo = self.with_face(spot, (albedo, steep), RAGGED * thick * grained);
+        let rubble = (1.0 - steep) * self.sites.fallen(spot.place);
+        let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
-        let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
-        let (rough, ledge) =
-            (texture.rough(0.16, 0.3 + 2.6 * steep), steep * (0.35 * bed.ledge + 0.25 * thin.ledge));
+        let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
+        let patches = PATCHES[0] + (PATCHES[1] - PATCHES[0]) * steep;
+        let tone = (1.0 + patches * texture.broad + detail + steep * wall).max(0.2);
+        let [fine, craggy] = RUBBLE_ROUGH.map(|rough| rough * rubble);
+        let rough = texture.rough(0.16 + fine, 0.3 + 2.6 * steep + craggy);
+        let ledge = steep * (0.35 * bed.ledge + 0.25 * thin.ledge);
         let facets = steep * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
-        self.with_bushes(spot, texture, (albedo, &ground))
+        self.with_bushes(spot, texture, (albedo, rubble, &ground))
+    }
+
+    /// Colour of ground of a colour, of which a share is a face that shows the edges of its beds, ragged by so many metres.
+    fn with_face(&self, spot: &SurfacePoint, (albedo, steep): (Linear, f32), ragged: f32) -> Linear {
+        if steep <= 0.0 || self.strata.materials.is_empty() {
+            return albedo;
+        }
+        let cells = UPHILL * self.sites.fineness;
+        let there = [spot.place[0] - cells * spot.fall[0], spot.place[1] + cells * spot.fall[1]];
+        let soft = SOFT.max(0.5 * spot.footprint * spot.slope.min(1.0));
+        let height = spot.point[2] + ragged;
+        let (face, top) = self.strata.material(there, height, soft);
+        // What stands higher than the ground uphill of it is a crest, of which that does not tell.
+        mix(albedo, face, steep * (1.0 - ramp(height - top, -soft, soft)))
     }
 
     /// Noise of a steep face, on the upright planes beside it: on the level plane it would be drawn out downward.
@@ -84,29 +126,34 @@ impl Cover {
         east * on(y) + north * on(x)
     }
 
-    /// Ground of a material, with its bushes and boulders.
+    /// Ground of a material, of which a share is rubble, with its bushes and boulders.
     fn with_bushes(
         &self,
         spot: &SurfacePoint,
         texture: &Texture,
-        (material, ground): (Linear, &SurfaceSample),
+        (material, rubble, ground): (Linear, f32, &SurfaceSample),
     ) -> SurfaceSample {
-        let bushes = self.scattered(spot, texture);
-        let loose = 0.7 * ramp(spot.slope, LOOSE[0], LOOSE[1]);
-        let kind = mix(BUSH, filter(BOULDER, material), ramp(bushes.chance + loose, 0.8, 0.88));
+        let bushes = self.scattered(spot, texture, rubble);
+        let loose = LOOSER * (ramp(spot.slope, LOOSE[0], LOOSE[1]) + rubble);
+        let kind =
+            mix(BUSH, filter(BOULDER, material), ramp(bushes.chance + loose, BOULDERS[0], BOULDERS[1]));
         let albedo = scale(kind, 0.35 + bushes.tone);
         let bush = SurfaceSample { albedo, bump: no_steeper(bushes.slope, STEEPEST_CROWN) };
-        let shaded = SurfaceSample { albedo: scale(ground.albedo, bushes.open), bump: ground.bump };
+        // It is darker below bushes than below trees, whose crowns begin higher up.
+        let open = bushes.open * bushes.open;
+        let shaded = SurfaceSample { albedo: scale(ground.albedo, open), bump: ground.bump };
         shaded.mixed(&bush, 0.85 * bushes.share)
     }
 
     /// Bushes and boulders on gentle ground of materials.
-    fn scattered(&self, spot: &SurfacePoint, texture: &Texture) -> Canopy {
+    fn scattered(&self, spot: &SurfacePoint, texture: &Texture, rubble: f32) -> Canopy {
         let patchy = texture.broad + 0.6 * texture.fine.value;
-        let density = SCATTERED * ramp(patchy, -1.4, 0.8) * (1.0 - ramp(spot.slope, BUSHY[0], BUSHY[1]));
+        let grown = (1.0 - ramp(spot.slope, BUSHY[0], BUSHY[1])) * (1.0 - RUBBLE_BARE * rubble);
+        let density = SCATTERED * ramp(patchy, -1.4, 0.8) * grown;
         let footprint = CLOSER * spot.footprint;
         let point = [CLOSER * spot.point[0], CLOSER * spot.point[1]];
-        canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, self.sun)
+        let sun = [self.sun[0], self.sun[1], LOWER * self.sun[2]];
+        canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, sun)
     }
 }
 

@@ -8,19 +8,42 @@ const BLOCKS = vec2<f32>(0.6, 1.3);
 const BEDDED = vec2<f32>(0.5, 1.2);
 const MINGLED = vec2<f32>(3.0, 0.3);
 
+// Cells uphill of such a face whose column still has what the face has lost, and the least softness of the edge of a bed.
+const UPHILL = 1.5;
+const SOFT = 0.15;
+
+// How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
+const RAGGED = 0.25;
+
 // Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED = 1.8;
 
 // Spacing of trees over that of bushes and boulders; the share of the places for them that are taken where they are densest.
-const CLOSER = 0.8;
-const SCATTERED = 0.95;
+const CLOSER = 1.05;
+const SCATTERED = 0.62;
 
-// Slopes from which they become fewer and from which there are none, and from which more and more of them are boulders.
+// Height of trees over that of bushes: shadows are as short as those of trees under a sun that is as much higher.
+const LOWER = 2.3;
+
+// Slopes from which they become fewer and from which there are none, and from which more and more of them are boulders; what
+// such slopes and rubble add to the chance that one is, and the chances from which some are, and all.
 const BUSHY = vec2<f32>(0.6, 0.95);
 const LOOSE = vec2<f32>(0.3, 0.6);
+const LOOSER = 0.3;
+const BOULDERS = vec2<f32>(0.86, 0.92);
+
+// What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
+const PATCHES = vec2<f32>(0.48, 0.28);
+const DETAIL = 0.6;
+
+// Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
+// share of bushes that do not grow on it.
+const RUBBLE_DETAIL = 0.4;
+const RUBBLE_ROUGH = vec2<f32>(0.35, 1.2);
+const RUBBLE_BARE = 0.5;
 
 // Share of light that bushes send back, and boulders beside the material that they lie on.
-const BUSH = vec3<f32>(0.092, 0.102, 0.046);
+const BUSH = vec3<f32>(0.066, 0.074, 0.034);
 const BOULDER = vec3<f32>(0.9, 0.88, 0.86);
 
 // Colour of the material at a place.
@@ -40,12 +63,13 @@ fn torn(texture: Texture) -> f32 {
 }
 
 // Bushes and boulders on gentle ground of materials: the share that they hide, and the light that they leave beside them.
-fn scattered(spot: SurfacePoint, texture: Texture) -> Canopy {
+fn scattered(spot: SurfacePoint, texture: Texture, rubble: f32) -> Canopy {
     let patchy = ramp(texture.broad + 0.6 * texture.fine.value, -1.4, 0.8);
-    let density = SCATTERED * patchy * (1.0 - ramp(spot.slope, BUSHY.x, BUSHY.y));
+    let grown = (1.0 - ramp(spot.slope, BUSHY.x, BUSHY.y)) * (1.0 - RUBBLE_BARE * rubble);
+    let density = SCATTERED * patchy * grown;
     let footprint = CLOSER * spot.footprint;
     let seen = seen_crown(CLOSER * spot.point.xy, density, footprint, aslant(spot));
-    return canopy_of(seen, density, footprint);
+    return canopy_of(seen, density, footprint, vec3<f32>(scene.sun.xy, LOWER * scene.sun.z));
 }
 
 // Noise of a steep face, on the upright planes beside it: on the level plane it would be drawn out downward.
@@ -56,7 +80,21 @@ fn grain_of_wall(spot: SurfacePoint, thick: f32) -> f32 {
     return shares.x * on_east + shares.y * octaves_at(octaves, spot.point.xz, spot.footprint).value;
 }
 
-fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
+// Colour of ground of a colour, of which a share is a face that shows the edges of its beds, ragged by so many metres.
+fn with_face(spot: SurfacePoint, albedo: vec3<f32>, steep: f32, ragged: f32) -> vec3<f32> {
+    let cells = UPHILL * scene.scale.w / scene.grid.zw;
+    let there = spot.place + cells * vec2<f32>(-spot.fall.x, spot.fall.y);
+    let soft = max(SOFT, 0.5 * spot.footprint * min(spot.slope, 1.0));
+    let height = spot.point.z + ragged;
+    // What is gentle turns no loop, which software would take for all pixels.
+    let count = select(0, i32(scene.strata.z), steep > 0.0);
+    let face = strata_material(there, height, soft, count);
+    // What stands higher than the ground uphill of it is a crest, of which that does not tell.
+    let share = select(0.0, steep * (1.0 - ramp(height - face.w, -soft, soft)), count > 0);
+    return mix(albedo, face.xyz, share);
+}
+
+fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, BEDDED.x, BEDDED.y);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
@@ -68,17 +106,22 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
         blocks = rock_fractures(spot, texture, false);
         grained = grain_of_wall(spot, thick);
     }
-    let fine = 0.4 * (1.0 - steep) * texture.fine.value + steep * (0.9 * grained + 0.7 * texture.crags.height);
+    let albedo = with_face(spot, mingled, steep, RAGGED * thick * grained);
+    let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
+    let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
-    let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
+    let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
+    let tone = max(1.0 + mix(PATCHES.x, PATCHES.y, steep) * texture.broad + detail + steep * wall, 0.2);
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
-    let slope = rough(texture, 0.16, 0.3 + 2.6 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
+    let uneven = rough(texture, 0.16 + RUBBLE_ROUGH.x * rubble, 0.3 + 2.6 * steep + RUBBLE_ROUGH.y * rubble);
+    let slope = uneven - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
-    let bushes = scattered(spot, texture);
+    let bushes = scattered(spot, texture, rubble);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
-    let shaded = SurfaceSample(albedo * (tone * bushes.open), bump, kinds);
-    let loose = 0.7 * ramp(spot.slope, LOOSE.x, LOOSE.y);
-    let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + loose, 0.8, 0.88));
+    // It is darker below bushes than below trees, whose crowns begin higher up.
+    let shaded = SurfaceSample(albedo * (tone * bushes.open * bushes.open), bump, kinds);
+    let loose = LOOSER * (ramp(spot.slope, LOOSE.x, LOOSE.y) + rubble);
+    let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + loose, BOULDERS.x, BOULDERS.y));
     let bush = SurfaceSample(kind * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
     return mixed(shaded, bush, 0.85 * bushes.share);
 }

@@ -52,7 +52,7 @@ pub(super) struct Setting {
     pub(super) rivers: Option<Rivers>,
     /// How water runs.
     pub(super) flow: Option<Flow>,
-    pub(super) strata: Strata,
+    pub(super) strata: Arc<Strata>,
     pub(super) limits: Limits,
     pub(super) exaggeration: f32,
     /// Elevation of the lowest ground in metres.
@@ -119,8 +119,10 @@ impl Setting {
             terrain,
             level,
             rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
-            strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?
-                .on_finer(fineness),
+            strata: Arc::new(
+                strata(landscape, (field, low), &frame.sheet, limits.relief + base / frame.exaggeration)?
+                    .on_finer(fineness),
+            ),
             around: has_horizon.then(|| Surroundings::new(&bed, sea)),
             bed,
             limits,
@@ -266,17 +268,27 @@ fn higher(ground: &Field, level: Option<&Field>) -> Field {
     Field::from_values(ground.size(), top.collect())
 }
 
-fn strata(landscape: &Landscape, ground: &Field, sheet: &Sheet, relief: f32) -> Result<Strata, Error> {
+fn strata(
+    landscape: &Landscape,
+    (ground, low): (&Field, f32),
+    sheet: &Sheet,
+    relief: f32,
+) -> Result<Strata, Error> {
     let mask = landscape.domain.valid.as_ref();
     let bedrock = landscape.materials.first().map_or([0.2; 3], |material| linear_of_srgb(material.colour));
     if !names_materials(landscape) {
-        return Ok(Strata::new(Vec::new(), bedrock, relief));
+        return Ok(Strata::new(Vec::new(), (bedrock, None), relief));
     }
     let layers = stack(landscape, ground)?;
     let materials = layers.iter().zip(&landscape.materials[1..]).map(|(thickness, material)| {
         (Surface::new(&drawable(thickness, mask, sheet)), linear_of_srgb(material.colour))
     });
-    Ok(Strata::new(materials.collect(), bedrock, relief))
+    let mut floor = ground.clone();
+    floor.values_mut().par_iter_mut().enumerate().for_each(|(cell, height)| {
+        *height -= low + layers.iter().map(|layer| layer.values()[cell]).sum::<f32>();
+    });
+    let floor = Surface::new(&drawable(&floor, mask, sheet));
+    Ok(Strata::new(materials.collect(), (bedrock, Some(floor)), relief))
 }
 
 /// Rise over run from which rock is bare.

@@ -2,7 +2,7 @@
 
 use super::sky::Sky;
 use super::surface::Surface;
-use super::vector::{Vector, add, dot, scale};
+use super::vector::{Vector, add, dot, ramp, scale};
 use crate::colour::{Linear, linear_of_hex, mix};
 use weald_core::grain::{Octaves, grain};
 
@@ -50,12 +50,17 @@ fn sky_on(sky: &Sky, normal: Vector) -> Vector {
     sum
 }
 
+/// Metres up to which a material hides less of what lies below it.
+const THIN: f32 = 0.5;
+
 /// What the ground is made of, where it is cut.
 #[derive(Debug)]
 pub(super) struct Strata {
     /// Materials above the bedrock, lowest first: thickness in metres and colour.
     pub(super) materials: Vec<(Surface, Linear)>,
     pub(super) bedrock: Linear,
+    /// Height of the bedrock in metres above the lowest ground, where materials lie on it.
+    pub(super) floor: Option<Surface>,
     /// Usual thickness of a bed, in metres.
     pub(super) bed: f32,
     pub(super) soil: Linear,
@@ -65,9 +70,13 @@ pub(super) struct Strata {
 
 impl Strata {
     /// Materials with their thickness and colour over bedrock of a colour, in ground of that relief.
-    pub(super) fn new(materials: Vec<(Surface, Linear)>, bedrock: Linear, relief: f32) -> Self {
+    pub(super) fn new(
+        materials: Vec<(Surface, Linear)>,
+        (bedrock, floor): (Linear, Option<Surface>),
+        relief: f32,
+    ) -> Self {
         let soil = linear_of_hex(0x4a_3b2b);
-        Self { materials, bedrock, bed: 0.06 * relief.max(1e-3), soil, soil_thickness: 0.012 * relief }
+        Self { materials, bedrock, floor, bed: 0.06 * relief.max(1e-3), soil, soil_thickness: 0.012 * relief }
     }
 
     /// The same for places that are counted in finer cells.
@@ -75,7 +84,7 @@ impl Strata {
     pub(super) fn on_finer(self, fineness: usize) -> Self {
         let materials = self.materials.into_iter();
         let materials = materials.map(|(thickness, colour)| (thickness.on_finer(fineness), colour)).collect();
-        Self { materials, ..self }
+        Self { materials, floor: self.floor.map(|floor| floor.on_finer(fineness)), ..self }
     }
 
     /// Colour of the ground at a place and a height in metres, whose surface is at `surface`.
@@ -95,6 +104,20 @@ impl Strata {
         mix(self.soil, rock, (2.0 * deep - 1.0).clamp(0.0, 1.0))
     }
 
+    /// Colour of the material that lies at a place and a height in metres, where edges between materials are so many metres
+    /// soft, and the height of the uppermost there.
+    pub(super) fn material(&self, place: [f32; 2], height: f32, soft: f32) -> (Linear, f32) {
+        let mut bottom = self.floor.as_ref().map_or(0.0, |floor| floor.at(place));
+        let mut colour = self.bedrock;
+        for (thickness, own) in &self.materials {
+            let thickness = thickness.at(place).max(0.0);
+            let share = ramp(height - bottom, -soft, soft) * (thickness / THIN).min(1.0);
+            colour = mix(colour, *own, share);
+            bottom += thickness;
+        }
+        (colour, bottom)
+    }
+
     /// A rock's colour with its beds, which are gently folded.
     fn bedded(&self, colour: Linear, point: Vector, height: f32, seed: u32) -> Linear {
         let fold =
@@ -105,5 +128,37 @@ impl Strata {
         let tone = 0.82 + 0.7 * thick + 0.35 * thin;
         let warmth = 0.16 * grain([0.9 * level, 5.3], 0x74).value;
         std::array::from_fn(|c| (colour[c] * tone * (1.0 + warmth * (1.0 - c as f32))).clamp(0.01, 0.9))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::{Field, Size};
+
+    const COLOURS: [Linear; 4] = [[0.1; 3], [0.2; 3], [0.3; 3], [0.4; 3]];
+
+    /// Bedrock up to 100 m, then 50 m, 30 m and a film of three materials.
+    fn strata() -> Strata {
+        let even = |height: f32| Surface::new(&Field::filled(Size::square(5).expect("small"), height));
+        let materials =
+            [(1, 50.0), (2, 30.0), (3, 0.0)].map(|(at, thickness)| (even(thickness), COLOURS[at]));
+        Strata::new(materials.into(), (COLOURS[0], Some(even(100.0))), 200.0)
+    }
+
+    #[test]
+    fn a_material_lies_between_its_bottom_and_the_next_and_a_film_hides_nothing() {
+        for (height, expected) in [(90.0, 0), (99.0, 0), (101.0, 1), (149.0, 1), (151.0, 2), (185.0, 2)] {
+            let (found, top) = strata().material([2.0, 3.0], height, 0.2);
+            assert!((found[0] - COLOURS[expected][0]).abs() < 1e-4, "{found:?} at {height} m");
+            assert!((top - 180.0).abs() < 1e-3, "{top} m");
+        }
+    }
+
+    #[test]
+    fn edges_between_materials_are_as_soft_as_is_asked() {
+        let at = |height: f32| strata().material([2.0, 3.0], height, 4.0).0[0];
+        assert!((at(150.0) - 0.25).abs() < 1e-4 && at(145.9) == at(130.0) && at(154.1) == at(160.0));
+        assert!(at(148.0) < at(149.0) && at(151.0) < at(152.0));
     }
 }

@@ -28,6 +28,46 @@ fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
     return max(textureSampleLevel(strata, between, share, material / 4, 0.0)[material % 4], 0.0);
 }
 
+// Metres up to which a material hides less of what lies below it.
+const THIN_MATERIAL = 0.5;
+
+// The thickness of four materials at a place, as a spline.
+fn strata_spline(place: vec2<f32>, layer: i32) -> vec4<f32> {
+    let looks = spline_looks(place, vec2<f32>(textureDimensions(strata)));
+    let above = mix(
+        textureSampleLevel(strata, between, looks.low, layer, 0.0),
+        textureSampleLevel(strata, between, vec2<f32>(looks.high.x, looks.low.y), layer, 0.0),
+        looks.share.x,
+    );
+    let below = mix(
+        textureSampleLevel(strata, between, vec2<f32>(looks.low.x, looks.high.y), layer, 0.0),
+        textureSampleLevel(strata, between, looks.high, layer, 0.0),
+        looks.share.x,
+    );
+    return max(mix(above, below, looks.share.y), vec4<f32>(0.0));
+}
+
+// Colour of the material, of so many above the bedrock, that lies at a place and a height in metres, where edges between materials
+// are so many metres soft, and the height of the uppermost there.
+fn strata_material(place: vec2<f32>, height: f32, soft: f32, count: i32) -> vec4<f32> {
+    var colour = scene.strata_bedrock.xyz;
+    var bottom = 0.0;
+    var thickness = vec4<f32>(0.0);
+    for (var material = 0; material < count; material++) {
+        if material == 0 {
+            bottom = strata_spline(place, 1).w;
+        }
+        if material % 4 == 0 {
+            thickness = strata_spline(place, material / 4);
+        }
+        let own = thickness[material % 4];
+        let share = ramp(height - bottom, -soft, soft) * min(own / THIN_MATERIAL, 1.0);
+        colour = mix(colour, scene.strata_colours[material].xyz, share);
+        bottom += own;
+    }
+    return vec4<f32>(colour, bottom);
+}
+
 // Colour of the ground at a place and a height in metres, whose surface is at `surface`.
 fn strata_albedo(place: vec2<f32>, point: vec3<f32>, height: f32, surface: f32) -> vec3<f32> {
     var roof = surface;

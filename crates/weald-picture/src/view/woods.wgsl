@@ -124,7 +124,7 @@ fn seen_of_layer(layer: u32, spacing: f32, footprint: f32) -> f32 {
 }
 
 // What a wood of a density looks like at a point, for a pixel of that footprint.
-fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
+fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32, sun: vec3<f32>) -> Canopy {
     // Where there is none, no loop is gone through.
     let layers = select(1u, WOOD_LAYERS, wooded > 0.0);
     let single = seen_of_layer(0u, WOOD_SPACING, footprint);
@@ -160,7 +160,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var near = far;
     let looks = select(0u, 1u, single > 0.0 && density > 0.0);
     for (var look = 0u; look < looks; look++) {
-        near = crowns(point, density, between, stand, footprint);
+        near = crowns(point, vec2<f32>(density, between), stand, footprint, sun);
         near.tone += 0.45 * lumps;
         near.slope += slope;
     }
@@ -180,15 +180,17 @@ fn stand_at(point: vec2<f32>, footprint: f32, wooded: f32) -> f32 {
 }
 
 // Crowns that are seen one by one, with so much dark between them.
-fn crowns(point: vec2<f32>, density: f32, between: f32, stand: f32, footprint: f32) -> Canopy {
+fn crowns(point: vec2<f32>, cover: vec2<f32>, stand: f32, footprint: f32, sun: vec3<f32>) -> Canopy {
+    let density = cover.x;
+    let between = cover.y;
     let boughs = octaves_at(Octaves(BOUGHS, 3u, 0.65, WOOD_SEED + WOOD_LAYERS), point, footprint);
     let place = (point + BOUGHS_MOVED * boughs.slope) / WOOD_SPACING;
     let age = MIDDLE_AGE + STANDS_SIZE * stand;
     let tree = dome(place, WOOD_SEED, density, age);
     let within = min(5.0 * tree.height, 1.0);
-    let run = max(length(scene.sun.xy), 1e-6);
-    let reach = min(CROWN_SHADE.x * run / max(scene.sun.z, 1e-3), CROWN_SHADE.y) / run;
-    let shaded = dome(place + reach * scene.sun.xy, WOOD_SEED, density, age);
+    let run = max(length(sun.xy), 1e-6);
+    let reach = min(CROWN_SHADE.x * run / max(sun.z, 1e-3), CROWN_SHADE.y) / run;
+    let shaded = dome(place + reach * sun.xy, WOOD_SEED, density, age);
     let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
     return Canopy(
         within + (1.0 - within) * between,

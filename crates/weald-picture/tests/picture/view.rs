@@ -178,6 +178,32 @@ fn materials_reach_into_each_other_along_their_borders_and_not_farther() {
 }
 
 #[test]
+fn beds_end_at_their_level_on_a_wall_and_do_not_fade_over_cells() {
+    // A wall that falls southward by 50 m a cell, of which red is below 220 m and blue above.
+    let size = Size::square(64).expect("legal");
+    let mut landscape = Landscape::new(Domain::new(size, 20.0));
+    let wall = |_, y: usize| (425.0 - 50.0 * (y as f32 - 24.0)).clamp(25.0, 425.0);
+    landscape.insert("height", "m", Field::from_function(size, wall));
+    landscape.materials.truncate(1);
+    landscape.materials.push(stratum("red", 0.0, [0.8, 0.05, 0.05]));
+    landscape.materials.push(stratum("blue", 220.0, [0.05, 0.05, 0.8]));
+    let image = draw(&View { width: 480, height: 480, water: false, ..above() }, &landscape);
+    // How blue rows are, from -1 to 1, in the mean of the columns: 1 above the edge, and less where bushes grow below it.
+    let blue = |y: usize| {
+        let of = |x: usize| {
+            let [red, _, blue] = image.pixel(x, y).map(f64::from);
+            (blue - red) / (blue + red)
+        };
+        (100..380).map(of).sum::<f64>() / 280.0
+    };
+    let rows: Vec<f64> = (205..280).map(blue).collect();
+    let first = rows.iter().position(|&blue| blue < 0.7).expect("red follows");
+    let last = rows.iter().rposition(|&blue| blue > 0.0).expect("blue comes first");
+    // Seven and a half pixels are a cell, and 50 m.
+    assert!(last.abs_diff(first) <= 2, "it fades from {first} to {last}");
+}
+
+#[test]
 fn a_draped_layer_colours_the_ground_as_its_scale_says_and_nothing_else_does() {
     let mut landscape = country();
     let size = landscape.domain.size;
