@@ -5,12 +5,12 @@ use super::crown_relief::seen_crown;
 use super::ground_kinds::{SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, STEEPEST_CROWN, Texture, no_steeper};
 use super::vector::{filter, ramp, scale};
-use super::woods::{Canopy, canopy};
+use super::woods::{Canopy, canopy, turned};
 use crate::colour::{Linear, mix};
 use weald_core::grain::Octaves;
 
 /// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS: [f32; 2] = [0.6, 1.3];
+const BLOCKS: [f32; 2] = [0.8, 0.7];
 
 /// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
 const BEDDED: [f32; 2] = [0.5, 1.2];
@@ -25,7 +25,7 @@ const UPHILL: f32 = 1.5;
 const SOFT: f32 = 0.15;
 
 /// How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
-const RAGGED: f32 = 0.25;
+const TORN_EDGE: f32 = 0.25;
 
 /// Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED: f32 = 1.8;
@@ -50,13 +50,17 @@ const BOULDERS: [f32; 2] = [0.86, 0.92];
 
 /// What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
 const PATCHES: [f32; 2] = [0.48, 0.28];
-const DETAIL: f32 = 0.6;
+const DETAIL: f32 = 0.3;
 
 /// Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
 /// share of bushes that do not grow on it.
-const RUBBLE_DETAIL: f32 = 0.4;
-const RUBBLE_ROUGH: [f32; 2] = [0.35, 1.2];
+const RUBBLE_DETAIL: f32 = 0.15;
+const RUBBLE_ROUGH: [f32; 2] = [0.15, 0.8];
 const RUBBLE_BARE: f32 = 0.5;
+
+/// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and in rubble.
+const STONY: f32 = 2.7;
+const STONES: [f32; 2] = [0.06, 0.6];
 
 /// Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH: Linear = [0.066, 0.074, 0.034];
@@ -85,7 +89,7 @@ impl Cover {
         } else {
             Default::default()
         };
-        let albedo = self.with_face(spot, (albedo, steep), RAGGED * thick * grained);
+        let albedo = self.with_face(spot, (albedo, steep), TORN_EDGE * thick * grained);
         let rubble = (1.0 - steep) * self.sites.fallen(spot.place);
         let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
@@ -122,7 +126,11 @@ impl Cover {
         let octaves = Octaves { wavelength: GRAINED * thick, count: 6, gain: 0.6, seed: 0x17 };
         let [x, y, z] = spot.point;
         let [east, north] = spot.fall.map(|towards| towards * towards);
-        let on = |along: f32| octaves.at([along, z, 0.0], spot.footprint).value;
+        // On lattices that stand upright it would be drawn in bars.
+        let on = |along: f32| {
+            let [a, b] = turned([along, z]);
+            octaves.at([a, b, 0.0], spot.footprint).value
+        };
         east * on(y) + north * on(x)
     }
 
@@ -142,7 +150,22 @@ impl Cover {
         // It is darker below bushes than below trees, whose crowns begin higher up.
         let open = bushes.open * bushes.open;
         let shaded = SurfaceSample { albedo: scale(ground.albedo, open), bump: ground.bump };
-        shaded.mixed(&bush, 0.85 * bushes.share)
+        self.with_stones(spot, (material, rubble), &shaded).mixed(&bush, 0.85 * bushes.share)
+    }
+
+    /// Ground with the stones of its rubble.
+    fn with_stones(
+        &self,
+        spot: &SurfacePoint,
+        (material, rubble): (Linear, f32),
+        ground: &SurfaceSample,
+    ) -> SurfaceSample {
+        let stony = STONES[0] + (STONES[1] - STONES[0]) * rubble;
+        let stones = self.crowns_of(spot, STONY * CLOSER, stony);
+        let albedo = scale(filter(BOULDER, material), 0.55 + 0.9 * stones.tone);
+        let stone = SurfaceSample { albedo, bump: no_steeper(stones.slope, STEEPEST_CROWN) };
+        let shaded = SurfaceSample { albedo: scale(ground.albedo, stones.open), bump: ground.bump };
+        shaded.mixed(&stone, stones.share)
     }
 
     /// Bushes and boulders on gentle ground of materials.
@@ -150,8 +173,13 @@ impl Cover {
         let patchy = texture.broad + 0.6 * texture.fine.value;
         let grown = (1.0 - ramp(spot.slope, BUSHY[0], BUSHY[1])) * (1.0 - RUBBLE_BARE * rubble);
         let density = SCATTERED * ramp(patchy, -1.4, 0.8) * grown;
-        let footprint = CLOSER * spot.footprint;
-        let point = [CLOSER * spot.point[0], CLOSER * spot.point[1]];
+        self.crowns_of(spot, CLOSER, density)
+    }
+
+    /// Crowns so many times as close together as those of trees, of a density.
+    fn crowns_of(&self, spot: &SurfacePoint, closer: f32, density: f32) -> Canopy {
+        let footprint = closer * spot.footprint;
+        let point = [closer * spot.point[0], closer * spot.point[1]];
         let sun = [self.sun[0], self.sun[1], LOWER * self.sun[2]];
         canopy(seen_crown(point, [density, footprint], spot.aslant()), density, footprint, sun)
     }

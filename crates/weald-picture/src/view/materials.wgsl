@@ -1,7 +1,7 @@
 // Twin of `materials.rs`: ground of the materials that a recipe names.
 
 // What blocks of a material and the cracks between them add to its tone.
-const BLOCKS = vec2<f32>(0.6, 1.3);
+const BLOCKS = vec2<f32>(0.8, 0.7);
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
 // reach into each other, on gentle ground and on such faces.
@@ -13,7 +13,7 @@ const UPHILL = 1.5;
 const SOFT = 0.15;
 
 // How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
-const RAGGED = 0.25;
+const TORN_EDGE = 0.25;
 
 // Longest wavelength of the grain of a steep face over the thickness of a bed.
 const GRAINED = 1.8;
@@ -34,13 +34,17 @@ const BOULDERS = vec2<f32>(0.86, 0.92);
 
 // What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
 const PATCHES = vec2<f32>(0.48, 0.28);
-const DETAIL = 0.6;
+const DETAIL = 0.3;
 
 // Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
 // share of bushes that do not grow on it.
-const RUBBLE_DETAIL = 0.4;
-const RUBBLE_ROUGH = vec2<f32>(0.35, 1.2);
+const RUBBLE_DETAIL = 0.15;
+const RUBBLE_ROUGH = vec2<f32>(0.15, 0.8);
 const RUBBLE_BARE = 0.5;
+
+// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and in rubble.
+const STONY = 2.7;
+const STONES = vec2<f32>(0.06, 0.6);
 
 // Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH = vec3<f32>(0.066, 0.074, 0.034);
@@ -67,8 +71,13 @@ fn scattered(spot: SurfacePoint, texture: Texture, rubble: f32) -> Canopy {
     let patchy = ramp(texture.broad + 0.6 * texture.fine.value, -1.4, 0.8);
     let grown = (1.0 - ramp(spot.slope, BUSHY.x, BUSHY.y)) * (1.0 - RUBBLE_BARE * rubble);
     let density = SCATTERED * patchy * grown;
-    let footprint = CLOSER * spot.footprint;
-    let seen = seen_crown(CLOSER * spot.point.xy, density, footprint, aslant(spot));
+    return crowns_of(spot, CLOSER, density);
+}
+
+// Crowns so many times as close together as those of trees, of a density.
+fn crowns_of(spot: SurfacePoint, closer: f32, density: f32) -> Canopy {
+    let footprint = closer * spot.footprint;
+    let seen = seen_crown(closer * spot.point.xy, density, footprint, aslant(spot));
     return canopy_of(seen, density, footprint, vec3<f32>(scene.sun.xy, LOWER * scene.sun.z));
 }
 
@@ -76,8 +85,10 @@ fn scattered(spot: SurfacePoint, texture: Texture, rubble: f32) -> Canopy {
 fn grain_of_wall(spot: SurfacePoint, thick: f32) -> f32 {
     let octaves = Octaves(GRAINED * thick, 6u, 0.6, 0x17u);
     let shares = spot.fall * spot.fall;
-    let on_east = octaves_at(octaves, spot.point.yz, spot.footprint).value;
-    return shares.x * on_east + shares.y * octaves_at(octaves, spot.point.xz, spot.footprint).value;
+    // On lattices that stand upright it would be drawn in bars.
+    let on_east = octaves_at(octaves, turned_lattice(spot.point.yz), spot.footprint).value;
+    let on_north = octaves_at(octaves, turned_lattice(spot.point.xz), spot.footprint).value;
+    return shares.x * on_east + shares.y * on_north;
 }
 
 // Colour of ground of a colour, of which a share is a face that shows the edges of its beds, ragged by so many metres.
@@ -106,7 +117,7 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
         blocks = rock_fractures(spot, texture, false);
         grained = grain_of_wall(spot, thick);
     }
-    let albedo = with_face(spot, mingled, steep, RAGGED * thick * grained);
+    let albedo = with_face(spot, mingled, steep, TORN_EDGE * thick * grained);
     let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
     let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
@@ -123,5 +134,13 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
     let loose = LOOSER * (ramp(spot.slope, LOOSE.x, LOOSE.y) + rubble);
     let kind = mix(BUSH, BOULDER * albedo, ramp(bushes.chance + loose, BOULDERS.x, BOULDERS.y));
     let bush = SurfaceSample(kind * (0.35 + bushes.tone), no_steeper(bushes.slope, STEEPEST_CROWN), kinds);
-    return mixed(shaded, bush, 0.85 * bushes.share);
+    return mixed(with_stones(spot, albedo, rubble, shaded), bush, 0.85 * bushes.share);
+}
+
+// Ground with the stones of its rubble.
+fn with_stones(spot: SurfacePoint, albedo: vec3<f32>, rubble: f32, ground: SurfaceSample) -> SurfaceSample {
+    let stones = crowns_of(spot, STONY * CLOSER, mix(STONES.x, STONES.y, rubble));
+    let colour = BOULDER * albedo * (0.55 + 0.9 * stones.tone);
+    let stone = SurfaceSample(colour, no_steeper(stones.slope, STEEPEST_CROWN), ground.kinds);
+    return mixed(SurfaceSample(ground.albedo * stones.open, ground.bump, ground.kinds), stone, stones.share);
 }
