@@ -40,6 +40,11 @@ const LEDGES: f32 = 2.0;
 const STEP: f32 = 0.4;
 const STEP_OF_MATERIALS: f32 = 1.0;
 
+/// Steps along a wall with their weights, and cells in a step.
+const WALL: [(f32, f32); 7] =
+    [(-3.0, 0.0625), (-2.0, 0.125), (-1.0, 0.1875), (0.0, 0.25), (1.0, 0.1875), (2.0, 0.125), (3.0, 0.0625)];
+const WALL_STEP: f32 = 1.2;
+
 /// Finer cells that are as wide as the finest crag is blurred.
 const BLUR: f32 = 1.2;
 
@@ -107,6 +112,8 @@ impl Coarse<'_> {
     /// The ground on finer cells, with such shares of crags.
     pub(super) fn refined(&self, craggy: &Field, fineness: usize) -> Field {
         let (ground, craggy) = (Surface::new(self.ground), Surface::new(craggy));
+        let broad =
+            self.is_material.then(|| Surface::new(&smoothed(&smoothed(&smoothed(self.ground, 1), 2), 4)));
         let cells = FinerCells::of(&ground, fineness);
         by_rows(self.ground.size(), fineness, |y, heights| {
             let (shares, row) = (cells.row(&craggy, y), cells.row(&ground, y));
@@ -117,7 +124,10 @@ impl Coarse<'_> {
                 if share > 0.0 {
                     let [_, east, south] = cells.with_slope(&row, x);
                     let [along, down] = [x, y].map(|cell| middle(cell, fineness));
-                    let crest = ground.keys_at([along, down]) - *height;
+                    let crest = match &broad {
+                        Some(broad) => along_wall(&ground, broad, [along, down]),
+                        None => ground.keys_at([along, down]),
+                    } - *height;
                     steep.push(Steep { x, height: *height, rise: self.rise([east, south]), share, crest });
                 }
             }
@@ -213,6 +223,17 @@ impl Coarse<'_> {
     }
 }
 
+/// The height of a wall at a place in its mean along the wall, which runs as broad ground does: rivers that end in single cells
+/// leave flutes in it.
+fn along_wall(ground: &Surface, broad: &Surface, place: [f32; 2]) -> f32 {
+    let [_, east, south] = broad.with_slope(place);
+    let steep = (east * east + south * south).sqrt().max(1e-6);
+    let step = [-south, east].map(|part| WALL_STEP * part / steep);
+    let share =
+        |(at, weight): (f32, f32)| weight * ground.keys_at([0, 1].map(|axis| place[axis] + at * step[axis]));
+    WALL.map(share).into_iter().sum()
+}
+
 /// The greatest of each cell and most of those beside it.
 fn spread(field: &Field) -> Field {
     let size = field.size();
@@ -293,5 +314,28 @@ mod tests {
         assert!(craggy.at(30, 20) > 0.6, "{}", craggy.at(30, 20));
         let surface = Surface::new(&ridge);
         assert!(surface.at([31.0, 20.0]) < -1.0 && surface.keys_at([31.0, 20.0]).abs() < 1e-4);
+    }
+
+    #[test]
+    fn walls_lose_their_flutes_and_keep_their_profile() {
+        let size = Size::new(40, 40).expect("small");
+        // A wall that falls eastward by 50 m a cell, with flutes of 20 m from row to row.
+        let wall = |flutes: f32| {
+            Field::from_function(size, |x, y| {
+                let deep = flutes * if y % 2 == 0 { 1.0 } else { -1.0 };
+                (400.0 - 50.0 * (x as f32 - 16.0)).clamp(0.0, 400.0)
+                    + if (16..24).contains(&x) { deep } else { 0.0 }
+            })
+        };
+        let along = |field: &Field, y: f32| {
+            let broad = Surface::new(&smoothed(&smoothed(&smoothed(field, 1), 2), 4));
+            along_wall(&Surface::new(field), &broad, [20.5, y])
+        };
+        let (fluted, plain) = (wall(20.0), wall(0.0));
+        for y in [18.0, 19.0, 20.0, 21.0] {
+            let expected = Surface::new(&plain).keys_at([20.5, y]);
+            assert!((along(&plain, y) - expected).abs() < 1.0, "{} for {expected} m", along(&plain, y));
+            assert!((along(&fluted, y) - expected).abs() < 5.0, "{} for {expected} m", along(&fluted, y));
+        }
     }
 }
