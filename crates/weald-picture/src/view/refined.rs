@@ -15,8 +15,8 @@ use super::vector::ramp;
 use crate::texture::smoothed;
 use weald_core::grid::{Field, Size};
 
-/// Longest side of the finer ground in cells, and most of them along the side of a cell.
-const LONGEST: usize = 4096;
+/// Usual longest side of the finer ground in cells, and most of them along the side of a cell.
+const LONGEST: usize = 3072;
 const FINEST: usize = 4;
 
 /// Slope, as a share of that from which rock is bare, from which crags stand, and stand whole.
@@ -95,8 +95,13 @@ fn by_rows(size: Size, fineness: usize, fill: impl Fn(usize, &mut [f32]) + Sync)
 
 /// Most cells that are drawn for a landscape of so many.
 pub(crate) fn most_cells(cells: u64) -> u64 {
-    let fineness = (LONGEST as u64 / cells.isqrt().max(1)).clamp(1, FINEST as u64);
+    let fineness = fineness(cells.isqrt() as usize) as u64;
     cells * fineness * fineness
+}
+
+/// On how many cells along the side of one ground is drawn that has so many along its longer side.
+fn fineness(longer: usize) -> usize {
+    ((LONGEST + longer / 2) / longer.max(1)).clamp(1, FINEST)
 }
 
 impl Coarse<'_> {
@@ -104,7 +109,7 @@ impl Coarse<'_> {
     /// none, or where cells are fine as they are.
     pub(super) fn crags(&self) -> Option<(Field, usize)> {
         let size = self.ground.size();
-        let fineness = (LONGEST / size.columns.max(size.rows)).min(FINEST);
+        let fineness = fineness(size.columns.max(size.rows));
         let craggy = if fineness > 1 { self.craggy() } else { return None };
         craggy.values().iter().any(|&share| share > 0.0).then_some((craggy, fineness))
     }
@@ -273,7 +278,7 @@ mod tests {
             Field::from_function(Size::new(30, 30).expect("small"), |x, y| 4.0 * x as f32 + 2.0 * y as f32);
         assert!(of(&gentle, None).crags().is_none());
         let fine =
-            Field::from_function(Size::new(LONGEST / 2 + 1, 4).expect("small"), |x, _| 20.0 * x as f32);
+            Field::from_function(Size::new(2 * LONGEST / 3 + 1, 4).expect("small"), |x, _| 20.0 * x as f32);
         assert!(of(&fine, None).crags().is_none());
     }
 
