@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::colour::{Linear, encode, linear_of_hex, linear_of_srgb, mix};
 use super::contours::automatic_interval;
 use super::cut::{Cut, Line, Slice};
+use super::strokes::{Point, cover_at};
 use super::{Image, PAPER, Picture, digits};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -298,29 +299,18 @@ impl Drawing<'_> {
 
     /// Ink of a line of so many pixels through a height of each slice.
     fn ink(&self, [x, y]: [usize; 2], width: f32, height: impl Fn(&Slice) -> Option<f32>) -> f32 {
-        let reach = 0.5 * width * self.frame.line() + 0.5;
-        let row = |x: usize| height(&self.slices[x]).map(|height| self.frame.row(f64::from(height)));
-        let Some(here) = row(x) else { return 0.0 };
-        let middle = [x as f32, y as f32 + 0.5];
-        let own = (middle[1] - here).abs();
-        let cells = reach.ceil() as usize;
-        let segments = x.saturating_sub(cells)..(x + cells).min(self.slices.len() - 1);
-        let nearest = segments.fold(own, |nearest, left| match (row(left), row(left + 1)) {
-            (Some(start), Some(end)) => {
-                nearest.min(to_segment(middle, [left as f32, start], [left as f32 + 1.0, end]))
-            }
-            _ => nearest,
-        });
-        (reach - nearest).clamp(0.0, 1.0)
+        let width = width * self.frame.line();
+        let point = |x: usize| {
+            let row = self.frame.row(f64::from(height(&self.slices[x])?));
+            Some(Point { x: x as f32 + 0.5, y: row, width, opacity: 1.0 })
+        };
+        let Some(here) = point(x) else { return 0.0 };
+        let cover = |from, to| cover_at(here.x, y as f32 + 0.5, from, to);
+        let reach = (0.5 * width + 0.5).ceil() as usize;
+        let segments = x.saturating_sub(reach)..(x + reach).min(self.slices.len() - 1);
+        let covers = segments.filter_map(|left| Some(cover(point(left)?, point(left + 1)?)));
+        covers.fold(cover(here, here), f32::max)
     }
-}
-
-/// Distance of a point from the segment between two others.
-fn to_segment([x, y]: [f32; 2], [left, start]: [f32; 2], [right, end]: [f32; 2]) -> f32 {
-    let (across, up) = (right - left, end - start);
-    let along = ((x - left) * across + (y - start) * up) / (across * across + up * up).max(f32::MIN_POSITIVE);
-    let along = along.clamp(0.0, 1.0);
-    (x - left - along * across).hypot(y - start - along * up)
 }
 
 /// Smooth random values from 0 to 1, one a square.

@@ -72,7 +72,8 @@ fn span(low: f32, high: f32, count: usize) -> std::ops::Range<usize> {
     (low.floor().max(0.0) as usize).min(count)..(high.ceil().max(0.0) as usize).min(count)
 }
 
-fn cover_at(x: f32, y: f32, from: Point, to: Point) -> f32 {
+/// Cover of the pixel around a place by a line between two points.
+pub(super) fn cover_at(x: f32, y: f32, from: Point, to: Point) -> f32 {
     let (along_x, along_y) = (to.x - from.x, to.y - from.y);
     let length2 = (along_x * along_x + along_y * along_y).max(1e-12);
     let share = (((x - from.x) * along_x + (y - from.y) * along_y) / length2).clamp(0.0, 1.0);

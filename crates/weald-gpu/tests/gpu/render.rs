@@ -3,6 +3,7 @@
 use crate::programs::gpu;
 use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::grid::Mask;
+use weald::material::Material;
 use weald::parameter::Nested;
 use weald::picture::{Camera, Drape, GroundColour, Image, LitScene, Oklab, Scale, View, linear_of_hex};
 use weald::{Error, Landscape};
@@ -185,21 +186,41 @@ fn steepest(landscape: &Landscape) -> ([f64; 2], f32) {
     ([x, y].map(|at| (at as f64 + 0.5) * cell), east.atan2(north).to_degrees())
 }
 
+/// The same of beds of unlike colours, the lowest of which begins below all ground.
+fn with_beds(mut landscape: Landscape) -> Landscape {
+    let (low, high) = landscape.field("height").expect("there").range(None).expect("cells");
+    landscape.materials.truncate(1);
+    for bed in 0..7_u8 {
+        let share = f64::from(bed) / 6.0 - 0.1;
+        landscape.materials.push(Material {
+            name: format!("bed_{bed}"),
+            bottom: Some(f64::from(low) + share * f64::from(high - low)),
+            colour: if bed % 2 == 0 { [0.7, 0.3, 0.2] } else { [0.8, 0.75, 0.6] },
+            ..Material::built_in("clay").expect("built in")
+        });
+    }
+    landscape
+}
+
 #[test]
 fn walls_and_bushes_of_materials_have_the_colours_of_the_ray_marched_view() {
     let Some(gpu) = gpu() else { return };
-    let landscape = mountains();
-    let (wall, uphill) = steepest(&landscape);
+    walls_and_bushes_agree(&gpu, &mountains(), [[0.004, 0.015], [0.002, 0.008]]);
+    // Edges between beds of unlike colours are less than a pixel off here and there.
+    walls_and_bushes_agree(&gpu, &with_beds(mountains()), [[0.006, 0.025], [0.004, 0.015]]);
+}
+
+fn walls_and_bushes_agree(gpu: &Gpu, landscape: &Landscape, [far, near_bounds]: [[f64; 2]; 2]) {
+    let (wall, uphill) = steepest(landscape);
     for sun_altitude_deg in [90.0, 50.0] {
         // A device shades a pixel once, so it is compared with one ray a pixel: many show what is finer than a pixel.
         let view = View { sun_altitude_deg, samples: 1, ground: Some(GroundColour::Materials), ..view() };
-        let scene = LitScene::new(&view, &landscape).expect("a scene");
+        let scene = LitScene::new(&view, landscape).expect("a scene");
         let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 0.0);
         // From there squares of the pictures are smaller than blocks of the wall, and what stones add is not seen.
         let near = above(&scene, wall, 150.0, 55.0, uphill);
-        let far = [0.004, 0.015];
-        for (camera, bounds) in [(None, far), (Some(low), far), (Some(near), [0.002, 0.008])] {
-            let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+        for (camera, bounds) in [(None, far), (Some(low), far), (Some(near), near_bounds)] {
+            let (mean, worst) = distances(gpu, &view, landscape, camera);
             assert!(
                 mean < bounds[0] && worst < bounds[1],
                 "sun at {sun_altitude_deg}°: mean {mean}, one in twenty {worst}, at most {bounds:?}"

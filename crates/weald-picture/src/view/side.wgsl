@@ -28,10 +28,10 @@ fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
     return max(textureSampleLevel(strata, between, share, material / 4, 0.0)[material % 4], 0.0);
 }
 
-// Metres up to which a material hides less of what lies below it.
-const THIN_MATERIAL = 0.5;
+// Thickness of a material, in metres, that hides half of what it lies on.
+const THINNEST = 0.05;
 
-// The thickness of four materials at a place, as a spline.
+// The thickness of four materials at a place, of which the last is the height of the bedrock, as a spline.
 fn strata_spline(place: vec2<f32>, layer: i32) -> vec4<f32> {
     let looks = spline_looks(place, vec2<f32>(textureDimensions(strata)));
     let above = mix(
@@ -44,7 +44,7 @@ fn strata_spline(place: vec2<f32>, layer: i32) -> vec4<f32> {
         textureSampleLevel(strata, between, looks.high, layer, 0.0),
         looks.share.x,
     );
-    return max(mix(above, below, looks.share.y), vec4<f32>(0.0));
+    return mix(above, below, looks.share.y);
 }
 
 // Colour of the material, of so many above the bedrock, that lies at a place and a height in metres, where edges between materials
@@ -60,8 +60,8 @@ fn strata_material(place: vec2<f32>, height: f32, soft: f32, count: i32) -> vec4
         if material % 4 == 0 {
             thickness = strata_spline(place, material / 4);
         }
-        let own = thickness[material % 4];
-        let share = ramp(height - bottom, -soft, soft) * min(own / THIN_MATERIAL, 1.0);
+        let own = max(thickness[material % 4], 0.0);
+        let share = ramp(height - bottom, -soft, soft) * own / (own + THINNEST);
         colour = mix(colour, scene.strata_colours[material].xyz, share);
         bottom += own;
     }

@@ -158,10 +158,15 @@ fn colours(landscape: &Landscape, ground: &Field) -> Result<Vec<Linear>, Error> 
         let layers = stack.iter().zip(&inks[1..]);
         layers.fold(inks[0], |below, (layer, &ink)| {
             let thickness = layer.values()[cell];
-            mix(below, ink, thickness / (thickness + THINNEST))
+            mix(below, ink, hidden(thickness))
         })
     };
     Ok((0..ground.size().cells()).map(surface).collect())
+}
+
+/// Share of what lies below that a material of such a thickness in metres hides.
+pub(super) fn hidden(thickness: f32) -> f32 {
+    thickness / (thickness + THINNEST)
 }
 
 fn draped(drape: &Drape, landscape: &Landscape) -> Result<Vec<Linear>, Error> {
