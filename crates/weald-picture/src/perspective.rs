@@ -60,7 +60,7 @@ impl Picture for View {
     fn working_bytes(&self, cells: u64) -> u64 {
         let finer = most_cells(cells) - cells;
         let more_sky = if finer > 0 { SKY_OF_STEEP.saturating_sub(cells) } else { 0 };
-        21 * cells + 57 * cells.min(SKY_MOST) + if_steep(10 * finer + 57 * more_sky)
+        21 * cells + 57 * cells.min(SKY_MOST) + if_steep(8 * finer + 57 * more_sky)
     }
 
     fn optional_bytes(&self, layer: &str, cells: u64) -> u64 {

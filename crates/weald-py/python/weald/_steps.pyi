@@ -1044,7 +1044,7 @@ class Steps:
         erodibility_map: layer name
             Layer that multiplies the erodibility: 0.1 for hard, 10 for soft ground. Default: 1 everywhere.
         materials: true or false; default false
-            Whether each material wears in its own way: `erodibility` is then that of the bedrock, and those of the others stand to it as theirs do. What rivers lay down counts as the last material.
+            Whether each material wears in its own way: `erodibility` is then that of the bedrock, and those of the others stand to it as theirs do, and slopes of each stand at its talus at most: hard beds as cliffs above soft ones. What rivers lay down counts as the last material.
         area_exponent: number, 0 to 2; default 0.5
             Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
         hillslope_area: number, 0 to 1000000000 m²; default 50000.0
@@ -1056,7 +1056,7 @@ class Steps:
         creep: number, 0 to 1000 m²/a; default 0.01
             Creep of soil (D), which rounds ridges.
         critical_slope_deg: number, 1 to 89 deg; default 40.0
-            Steepest slope that stands; what is steeper slides down to it.
+            Steepest slope that stands, of whatever material; what is steeper slides down to it.
         time_step: number, 0.001 to 10000000000 a
             Years of one step of time. Default: a two-hundredth of the duration.
         outlets: "border" | "sea" | "north" | "east" | "south" | "west"; default "border"
