@@ -83,7 +83,6 @@ pub(super) fn broad_values(places: [&mut [f32]; 2], cell: f32) -> Vec<f32> {
 }
 
 /// Some thirty beds over the relief, folded by about one of their thickness, at a point where patches have such a value.
-pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, broad: f32) -> BedSpot {
-    let (thick, fold) = if is_material { (0.03, 0.3) } else { (THICK, 1.4) };
-    BedSpot { point, fold: fold * broad, thickness: thick * limits.relief.max(1e-3), footprint: 0.0 }
+pub(super) fn bed_spot(point: Vector, limits: &Limits, broad: f32) -> BedSpot {
+    BedSpot { point, fold: 1.4 * broad, thickness: THICK * limits.relief.max(1e-3), footprint: 0.0 }
 }

@@ -9,8 +9,23 @@ use super::woods::{Canopy, canopy, turned};
 use crate::colour::{Linear, mix};
 use weald_core::grain::Octaves;
 
-/// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS: [f32; 2] = [0.8, 0.7];
+/// What beds of a face add to its tone, and the thick and the thin joints between them.
+const BEDS: f32 = 0.48;
+const JOINTS: [f32; 2] = [0.6, 0.45];
+
+/// What blocks of a material and the cracks between them add to its tone, and how much they lean beside those of other rock: in
+/// dry country no soil hides edges.
+const BLOCKS: [f32; 2] = [0.5, 2.4];
+const LEANING: f32 = 1.5;
+
+/// Pixel at which such blocks are looked at over that of the picture: their edges are to be sharp.
+const SHARP: f32 = 0.7;
+
+/// By how many of its beds the edge of one is ragged beside those of other rock.
+const TORN_BEDS: f32 = 0.4;
+
+/// How fast ground grows darker by what is taken from its tone, which never comes to 0: what lies in the dark is still seen.
+const DARKER: f32 = 1.2;
 
 /// Slopes from which a face of a material shows its beds, and shows them whole: 27° and 50°.
 const BEDDED: [f32; 2] = [0.5, 1.2];
@@ -48,18 +63,20 @@ const LOOSE: [f32; 2] = [0.3, 0.6];
 const LOOSER: f32 = 0.3;
 const BOULDERS: [f32; 2] = [0.86, 0.92];
 
-/// What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
-const PATCHES: [f32; 2] = [0.48, 0.28];
+/// What patches and fine detail add to the tone of gentle ground, and how rough that is. On walls they would be drawn out downward.
+const PATCHES: f32 = 0.48;
 const DETAIL: f32 = 0.3;
+const ROUGH: f32 = 0.16;
 
 /// Rubble below walls: how much rougher it is by crags than other ground, and the share of bushes that do not grow on it.
 const RUBBLE_ROUGH: f32 = 0.8;
 const RUBBLE_BARE: f32 = 0.5;
 
-/// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and
-/// in rubble.
+/// How many times as close together stones are as bushes, the share of their places that are taken, on other ground and
+/// in rubble, and slopes from which fewer lie, and from which none do.
 const STONY: f32 = 2.7;
 const STONES: [f32; 2] = [0.06, 0.6];
+const STONELESS: [f32; 2] = [0.7, 1.2];
 
 /// Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH: Linear = [0.066, 0.074, 0.034];
@@ -81,24 +98,24 @@ impl Cover {
     ) -> SurfaceSample {
         let steep = ramp(spot.slope, BEDDED[0], BEDDED[1]);
         let thick = 0.03 * self.limits.relief.max(1e-3);
-        let fold = 0.3 * texture.broad + texture.torn();
+        let fold = 0.3 * texture.broad + TORN_BEDS * texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
         let (blocks, grained) = if steep > 0.0 {
-            (self.fractures(spot, texture, false), Self::grain_of_wall(spot, thick))
+            let sharper = SurfacePoint { footprint: SHARP * spot.footprint, ..*spot };
+            (self.fractures(&sharper, texture, false), Self::grain_of_wall(spot, thick))
         } else {
             Default::default()
         };
         let albedo = self.with_face(spot, (albedo, steep), TORN_EDGE * thick * grained);
         let rubble = (1.0 - steep) * self.sites.fallen(spot.place);
-        let detail = DETAIL * (1.0 - steep) * texture.fine.value;
-        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
-        let bedded = 0.8 * bed.tone + 0.8 * thin.tone - 0.35 * bed.joint - 0.25 * thin.joint;
-        let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
-        let patches = PATCHES[0] + (PATCHES[1] - PATCHES[0]) * steep;
-        let tone = (1.0 + patches * texture.broad + detail + steep * wall).max(0.2);
-        let rough = texture.rough(0.16, 0.3 + 2.6 * steep + RUBBLE_ROUGH * rubble);
+        let gentle = (1.0 - steep) * (PATCHES * texture.broad + DETAIL * texture.fine.value);
+        // What is hardly open is dark already.
+        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack.sqrt();
+        let bedded = BEDS * (bed.tone + thin.tone) - JOINTS[0] * bed.joint - JOINTS[1] * thin.joint;
+        let tone = toned(gentle + steep * (bedded + broken));
+        let rough = texture.rough((1.0 - steep) * ROUGH, 0.3 + 1.2 * steep + RUBBLE_ROUGH * rubble);
         let ledge = steep * (0.35 * bed.ledge + 0.25 * thin.ledge);
-        let facets = steep * Self::facets(spot);
+        let facets = steep * LEANING * Self::facets(spot);
         let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
         let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         let ground = SurfaceSample { albedo: scale(albedo, tone), bump };
@@ -158,8 +175,7 @@ impl Cover {
         (material, rubble): (Linear, f32),
         ground: &SurfaceSample,
     ) -> SurfaceSample {
-        let stony = STONES[0] + (STONES[1] - STONES[0]) * rubble;
-        let stones = self.crowns_of(spot, STONY * CLOSER, stony);
+        let stones = self.crowns_of(spot, STONY * CLOSER, stony(spot.slope, rubble));
         let albedo = scale(filter(BOULDER, material), 0.55 + 0.9 * stones.tone);
         let stone = SurfaceSample { albedo, bump: no_steeper(stones.slope, STEEPEST_CROWN) };
         let shaded = SurfaceSample { albedo: scale(ground.albedo, stones.open), bump: ground.bump };
@@ -183,9 +199,35 @@ impl Cover {
     }
 }
 
+/// Share of the places for stones that are taken on such a slope, of which a share is rubble.
+fn stony(slope: f32, rubble: f32) -> f32 {
+    let lies = 1.0 - ramp(slope, STONELESS[0], STONELESS[1]);
+    lies * (STONES[0] + (STONES[1] - STONES[0]) * rubble)
+}
+
+/// What colour is multiplied by where so much is added to its tone.
+fn toned(more: f32) -> f32 {
+    if more < 0.0 { 1.0 / (1.0 - DARKER * more) } else { 1.0 + more }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_lies_in_the_dark_is_still_seen() {
+        // Cracks in the joints of dark beds take more than there is.
+        let tones: Vec<f32> = (-40..20).map(|step| toned(0.1 * step as f32)).collect();
+        let rises = tones.windows(2).map(|pair| pair[1] / pair[0]).fold(f32::MAX, f32::min);
+        assert!(tones[0] > 0.1 && rises > 1.015, "{} at the darkest, {rises} from tone to tone", tones[0]);
+        assert_eq!(toned(0.0), 1.0);
+    }
+
+    #[test]
+    fn stones_lie_in_rubble_and_not_on_walls() {
+        assert!(stony(0.4, 1.0) > 5.0 * stony(0.4, 0.0) && stony(0.4, 0.0) > 0.0);
+        assert_eq!(stony(1.2, 1.0), 0.0);
+    }
 
     #[test]
     fn the_grain_of_a_wall_changes_as_fast_downward_as_along_it() {

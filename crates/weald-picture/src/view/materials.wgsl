@@ -1,7 +1,20 @@
 // Twin of `materials.rs`: ground of the materials that a recipe names.
 
-// What blocks of a material and the cracks between them add to its tone.
-const BLOCKS = vec2<f32>(0.8, 0.7);
+// What beds of a face add to its tone, and the thick and the thin joints between them.
+const BEDS = 0.48;
+const JOINTS = vec2<f32>(0.6, 0.45);
+
+// What blocks of a material and the cracks between them add to its tone, how much they lean beside those of other rock, and the
+// pixel at which they are looked at over that of the picture.
+const BLOCKS = vec2<f32>(0.5, 2.4);
+const LEANING = 1.5;
+const SHARP = 0.7;
+
+// By how many of its beds the edge of one is ragged beside those of other rock.
+const TORN_BEDS = 0.4;
+
+// How fast ground grows darker by what is taken from its tone, which never comes to 0.
+const DARKER = 1.2;
 
 // Slopes from which a face of a material shows its beds, and shows them whole; and by how many cells times their noise materials
 // reach into each other, on gentle ground and on such faces.
@@ -32,18 +45,20 @@ const LOOSE = vec2<f32>(0.3, 0.6);
 const LOOSER = 0.3;
 const BOULDERS = vec2<f32>(0.86, 0.92);
 
-// What patches add to the tone of gentle ground, and of walls; what fine detail adds to that of gentle ground.
-const PATCHES = vec2<f32>(0.48, 0.28);
+// What patches and fine detail add to the tone of gentle ground, and how rough that is.
+const PATCHES = 0.48;
 const DETAIL = 0.3;
+const ROUGH = 0.16;
 
 // Rubble below walls: how much rougher it is by crags than other ground, and the share of bushes that do not grow on it.
 const RUBBLE_ROUGH = 0.8;
 const RUBBLE_BARE = 0.5;
 
-// How many times as close together stones are as bushes, and the share of their places that are taken, on other ground and
-// in rubble.
+// How many times as close together stones are as bushes, the share of their places that are taken, on other ground and
+// in rubble, and slopes from which fewer lie, and from which none do.
 const STONY = 2.7;
 const STONES = vec2<f32>(0.06, 0.6);
+const STONELESS = vec2<f32>(0.7, 1.2);
 
 // Share of light that bushes send back, and boulders beside the material that they lie on.
 const BUSH = vec3<f32>(0.066, 0.074, 0.034);
@@ -104,27 +119,35 @@ fn with_face(spot: SurfacePoint, albedo: vec3<f32>, steep: f32, ragged: f32) -> 
     return mix(albedo, face.xyz, share);
 }
 
+// What colour is multiplied by where so much is added to its tone.
+fn toned(more: f32) -> f32 {
+    return select(1.0 + more, 1.0 / (1.0 - DARKER * more), more < 0.0);
+}
+
 fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, BEDDED.x, BEDDED.y);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
-    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.3 * texture.broad + torn(texture), false);
-    let tones = 0.8 * bedding.thick.tone + 0.8 * bedding.thin.tone;
-    let bedded = tones - 0.35 * bedding.thick.joint - 0.25 * bedding.thin.joint;
+    let fold = 0.3 * texture.broad + TORN_BEDS * torn(texture);
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), fold, false);
+    let tones = BEDS * (bedding.thick.tone + bedding.thin.tone);
+    let bedded = tones - JOINTS.x * bedding.thick.joint - JOINTS.y * bedding.thin.joint;
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
     var grained = 0.0;
     if steep > 0.0 {
-        blocks = rock_fractures(spot, texture, false);
+        var sharper = spot;
+        sharper.footprint *= SHARP;
+        blocks = rock_fractures(sharper, texture, false);
         grained = grain_of_wall(spot, thick);
     }
     let albedo = with_face(spot, mingled, steep, TORN_EDGE * thick * grained);
     let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
-    let detail = DETAIL * (1.0 - steep) * texture.fine.value;
-    let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
-    let wall = bedded + broken + 0.9 * grained + 0.7 * texture.crags.height;
-    let tone = max(1.0 + mix(PATCHES.x, PATCHES.y, steep) * texture.broad + detail + steep * wall, 0.2);
+    let gentle = (1.0 - steep) * (PATCHES * texture.broad + DETAIL * texture.fine.value);
+    // What is hardly open is dark already.
+    let broken = BLOCKS.x * blocks.tone - BLOCKS.y * sqrt(blocks.crack);
+    let tone = toned(gentle + steep * (bedded + broken));
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
-    let uneven = rough(texture, 0.16, 0.3 + 2.6 * steep + RUBBLE_ROUGH * rubble);
-    let slope = uneven - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
+    let uneven = rough(texture, (1.0 - steep) * ROUGH, 0.3 + 1.2 * steep + RUBBLE_ROUGH * rubble);
+    let slope = uneven - spot.fall * ledge + steep * LEANING * facets_of(spot) * blocks.facet;
     let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, rubble);
     let kinds = vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0);
@@ -136,9 +159,15 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
     return mixed(with_stones(spot, albedo, rubble, shaded), bush, 0.85 * bushes.share);
 }
 
+// Share of the places for stones that are taken on such a slope, of which a share is rubble.
+fn stony(slope: f32, rubble: f32) -> f32 {
+    let lies = 1.0 - ramp(slope, STONELESS.x, STONELESS.y);
+    return lies * mix(STONES.x, STONES.y, rubble);
+}
+
 // Ground with the stones of its rubble.
 fn with_stones(spot: SurfacePoint, albedo: vec3<f32>, rubble: f32, ground: SurfaceSample) -> SurfaceSample {
-    let stones = crowns_of(spot, STONY * CLOSER, mix(STONES.x, STONES.y, rubble));
+    let stones = crowns_of(spot, STONY * CLOSER, stony(spot.slope, rubble));
     let colour = BOULDER * albedo * (0.55 + 0.9 * stones.tone);
     let stone = SurfaceSample(colour, no_steeper(stones.slope, STEEPEST_CROWN), ground.kinds);
     return mixed(SurfaceSample(ground.albedo * stones.open, ground.bump, ground.kinds), stone, stones.share);

@@ -38,7 +38,6 @@ const HIGH_OF_MATERIALS: f32 = 0.4;
 /// Beds from one ledge to the next, and the share of its height that ground takes back on a ledge.
 const LEDGES: f32 = 2.0;
 const STEP: f32 = 0.4;
-const STEP_OF_MATERIALS: f32 = 1.0;
 
 /// Steps along a wall with their weights, and cells in a step.
 const WALL: [(f32, f32); 7] =
@@ -175,14 +174,17 @@ impl Coarse<'_> {
         (0..steep.len()).map(stands).collect()
     }
 
-    /// How much higher ground stands for the ledges of its beds, where patches have such a value.
+    /// How much higher ground stands for the ledges of its beds, where patches have such a value. Walls of materials are a few
+    /// cells wide, on which ledges would be flutes.
     fn ledges(&self, point: [f32; 3], broad: f32, fineness: usize) -> f32 {
-        let spot = bed_spot(point, &self.limits, self.is_material, broad);
+        if self.is_material {
+            return 0.0;
+        }
+        let spot = bed_spot(point, &self.limits, broad);
         let thickness = LEDGES * spot.thickness;
         let spot = BedSpot { thickness, fold: spot.fold / LEDGES, ..spot };
         let seen = ramp(thickness * fineness as f32 / self.limits.cell, 2.0, 5.0);
-        let step = if self.is_material { STEP_OF_MATERIALS } else { STEP };
-        step * seen * thickness * stepped(&spot, !self.is_material)
+        STEP * seen * thickness * stepped(&spot)
     }
 
     /// Share of crags by cell: on what is steep and on crests beside it, not beside water.

@@ -89,8 +89,8 @@ pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
 
 /// How much higher ground stands for the beds there than without them, over the thickness of one: it rises as fast with each
 /// face as it falls back on the ledge above it.
-pub(super) fn stepped(spot: &BedSpot, dips: bool) -> f32 {
-    let level = level(spot, dips);
+pub(super) fn stepped(spot: &BedSpot) -> f32 {
+    let level = level(spot, true);
     let within = level - level.floor();
     within.min(1.0 - within) - 0.25
 }
@@ -142,7 +142,7 @@ mod tests {
     fn ground_rises_with_faces_and_falls_back_on_ledges_and_is_as_high_on_the_average() {
         let at = |height: f32| {
             let point = [100.0, 200.0, height];
-            stepped(&BedSpot { point, fold: 0.3, thickness: 10.0, footprint: 0.0 }, false)
+            stepped(&BedSpot { point, fold: 0.3, thickness: 10.0, footprint: 0.0 })
         };
         let mean = (0..1000).map(|step| at(0.1 * step as f32)).sum::<f32>() / 1000.0;
         assert!(mean.abs() < 1e-2, "{mean}");
