@@ -162,24 +162,24 @@ impl Coarse<'_> {
         let cell = self.limits.cell;
         let [mut east, mut north, mut up] = axes();
         let crags = crags::heights([&mut east, &mut north, &mut up], cell, BLUR * cell / fineness as f32);
-        let [mut east, mut north, _] = axes();
-        let broad = broad_values([&mut east, &mut north], cell);
+        // Walls of materials are a few cells wide, on which ledges would be flutes.
+        let broad = (!self.is_material).then(|| {
+            let [mut east, mut north, _] = axes();
+            broad_values([&mut east, &mut north], cell)
+        });
         let high = if self.is_material { HIGH_OF_MATERIALS } else { HIGH };
         let stands = |at: usize| {
             let [east, north] = steep[at].rise;
             // What stands out of a slope is higher by its steepness.
             let upward = (1.0 + east * east + north * north).sqrt();
-            high * crags[at] * cell * upward.min(2.0) + self.ledges(points[at], broad[at], fineness)
+            let ledges = broad.as_ref().map_or(0.0, |broad| self.ledges(points[at], broad[at], fineness));
+            high * crags[at] * cell * upward.min(2.0) + ledges
         };
         (0..steep.len()).map(stands).collect()
     }
 
-    /// How much higher ground stands for the ledges of its beds, where patches have such a value. Walls of materials are a few
-    /// cells wide, on which ledges would be flutes.
+    /// How much higher ground stands for the ledges of its beds, where patches have such a value.
     fn ledges(&self, point: [f32; 3], broad: f32, fineness: usize) -> f32 {
-        if self.is_material {
-            return 0.0;
-        }
         let spot = bed_spot(point, &self.limits, broad);
         let thickness = LEDGES * spot.thickness;
         let spot = BedSpot { thickness, fold: spot.fold / LEDGES, ..spot };
