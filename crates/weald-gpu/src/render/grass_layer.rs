@@ -238,7 +238,7 @@ impl LoadedSets {
     }
 }
 
-/// The sets that may be drawn from within a square: the farther from it, the fewer.
+/// The sets that may be drawn from within a square, with however small pixels: the farther from it, the fewer.
 fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
     let reach = f64::from(FARTHEST);
     let [low, high] = [0, 1].map(|end| square.map(|at| (at + end) as f64 * SQUARE));
@@ -250,7 +250,7 @@ fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
             let at = f64::from(place[axis]);
             (low[axis] - at).max(at - high[axis]).max(0.0) as f32
         });
-        choice.height_share(tuft.rank(), away[0].hypot(away[1])) > 0.0
+        choice.height_share(tuft.rank(), away[0].hypot(away[1]), 1.0) > 0.0
     };
     let mut sets = Vec::new();
     for strip in 0..strips {

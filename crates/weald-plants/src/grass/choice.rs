@@ -1,18 +1,18 @@
 //! Which sets of a meadow are drawn, and how finely: what a device chooses anew for each picture.
 //!
 //! ```text
-//! share of the sets that stand at distance d     (W / max(d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
+//! share of the sets that stand at distance d     (W / max(c d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
 //! height share of a set of rank r                clamp((1.25 share - r) / 0.25, 0, 1)
 //! ```
 //!
-//! with W = 10 m, up to which all stand, and F = 96 m, beyond which none does. A set whose turn it is to be left out sinks
-//! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
-//! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
-//! second row has slid onto its neighbour, so that the blade is that of the next level already. Where pixels are larger than a
-//! thousandth of a radian, levels end as many times as near as they are larger ([`coarser`]): what a pixel does not show is not
-//! drawn. Nor is a set that ground hides, which is looked for at a few places on the way to it. A device does the same in
-//! `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so that a picture is the same each
-//! time.
+//! with W = 10 m, up to which all stand, F = 96 m, beyond which none does, and c = 1 but where pixels are larger than a
+//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`]). With as many sets in them the
+//! blades, none thinner than it can be seen, were a pale coat. A set whose turn it is to be left out sinks into the ground over a
+//! fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three levels of detail, each with its
+//! list, of blades with fewer and fewer rows of vertices; before the level changes every second row has slid onto its neighbour,
+//! so that the blade is that of the next level already. Levels end c times as near: what a pixel does not show is not drawn. Nor
+//! is a set that ground hides, which is looked for at a few places on the way to it. A device does the same in `meadow.wgsl`,
+//! which has the same names; it keeps each list in the order of the sets, so that a picture is the same each time.
 
 use super::blade::{Set, rows};
 use super::species::Species;
@@ -83,7 +83,7 @@ pub struct ViewCone {
     pub half: [f32; 2],
     /// The point from which distances count: the eye, but in tests.
     pub detail_from: [f32; 3],
-    /// How many times as far away blades count, as [`coarser`] says.
+    /// How many times as large pixels are, as [`coarser`] says.
     pub coarser: f32,
 }
 
@@ -101,7 +101,7 @@ impl Choice {
     /// The level of detail, and with it the list, in which a set is drawn whose root is there; `None` where it is not.
     pub fn list_of(&self, sight: &ViewCone, tuft: &Set, root: [f32; 3]) -> Option<usize> {
         let distance = length(minus(root, sight.detail_from));
-        let stands = self.height_share(tuft.rank(), distance) > 0.0;
+        let stands = self.height_share(tuft.rank(), distance, sight.coarser) > 0.0;
         let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
         (stands && seen).then(|| self.list(sight.coarser * distance))
     }
@@ -124,12 +124,12 @@ impl Choice {
         self.hides == 1 && (0..LOOKS).any(is_below_ground)
     }
 
-    /// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
-    pub fn height_share(&self, rank: f32, distance: f32) -> f32 {
+    /// How high a set of a rank stands at a distance, as a share, where pixels are so many times as large: 0 where it is left out.
+    pub fn height_share(&self, rank: f32, distance: f32, coarser: f32) -> f32 {
         if self.thinned == 0 {
             return 1.0;
         }
-        ((share(distance) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
+        ((share(distance, coarser) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
     }
 
     /// How far every second row of a list's blades has slid onto the one before it, at a distance as it counts.
@@ -149,7 +149,8 @@ impl Choice {
     }
 }
 
-/// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians.
+/// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians,
+/// by which sets become fewer as well.
 pub fn coarser(pixel_angle: f32) -> f32 {
     (pixel_angle / PIXEL).clamp(1.0, COARSEST)
 }
@@ -159,9 +160,9 @@ fn tallest(species: &Species) -> f32 {
     species.height * species.stalk.max(1.0) + species.spread
 }
 
-/// How many of the sets stand at a distance.
-pub fn share(distance: f32) -> f32 {
-    let thinned = libm::powf(WHOLE / distance.max(WHOLE), THINNING);
+/// How many of the sets stand at a distance, where pixels are so many times as large.
+pub fn share(distance: f32, coarser: f32) -> f32 {
+    let thinned = libm::powf(WHOLE / (coarser * distance).max(WHOLE), THINNING);
     thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
 }
 
@@ -206,13 +207,22 @@ mod tests {
     #[test]
     fn sets_become_fewer_with_the_distance_and_none_sinks_at_once() {
         let choice = Choice::of_a_picture();
-        assert_eq!((share(WHOLE), share(FARTHEST)), (1.0, 0.0));
-        assert!(distances().all(|at| share(at + 0.1) <= share(at)));
+        assert_eq!((share(WHOLE, 1.0), share(FARTHEST, 1.0)), (1.0, 0.0));
+        assert!(distances().all(|at| share(at + 0.1, 1.0) <= share(at, 1.0)));
         for rank in [0.0, 0.3, 0.99] {
-            let share = |at| choice.height_share(rank, at);
+            let share = |at| choice.height_share(rank, at, 1.0);
             let sunk: Vec<_> = distances().map(|at| share(at) - share(at + 0.1)).collect();
             assert!(sunk.iter().all(|sunk| (0.0..0.06).contains(sunk)), "rank {rank}");
             assert!((sunk.iter().sum::<f32>() - 1.0).abs() < 1e-4, "rank {rank} sinks wholly");
+        }
+    }
+
+    #[test]
+    fn fewer_sets_stand_where_pixels_are_larger() {
+        for at in [20.0, 30.0, 50.0] {
+            let fewer = share(at, 2.0) / share(at, 1.0);
+            assert!((0.44..0.46).contains(&fewer), "at {at} m: {fewer}");
+            assert_eq!(share(4.9, 2.0), 1.0, "near by all stand");
         }
     }
 
