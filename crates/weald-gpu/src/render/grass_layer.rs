@@ -238,7 +238,7 @@ impl LoadedSets {
     }
 }
 
-/// The sets that may be drawn from within a square, with however small pixels: the farther from it, the fewer.
+/// The sets that may be drawn from within a square, the smallest pixels included: the farther from it, the fewer.
 fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
     let reach = f64::from(FARTHEST);
     let [low, high] = [0, 1].map(|end| square.map(|at| (at + end) as f64 * SQUARE));

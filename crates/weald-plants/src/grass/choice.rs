@@ -6,13 +6,14 @@
 //! ```
 //!
 //! with W = 10 m, up to which all stand, F = 96 m, beyond which none does, and c = 1 but where pixels are larger than a
-//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`]). With as many sets in them the
-//! blades, none thinner than it can be seen, were a pale coat. A set whose turn it is to be left out sinks into the ground over a
-//! fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three levels of detail, each with its
-//! list, of blades with fewer and fewer rows of vertices; before the level changes every second row has slid onto its neighbour,
-//! so that the blade is that of the next level already. Levels end c times as near: what a pixel does not show is not drawn. Nor
-//! is a set that ground hides, which is looked for at a few places on the way to it. A device does the same in `meadow.wgsl`,
-//! which has the same names; it keeps each list in the order of the sets, so that a picture is the same each time.
+//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`]). With as many sets in them,
+//! blades, of which none is drawn much thinner than a pixel, were a pale coat. A set whose turn it is to be left out sinks
+//! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
+//! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
+//! second row has slid onto its neighbour, so that the blade is that of the next level already. Levels end c times as near:
+//! what a pixel does not show is not drawn. Nor is a set that ground hides, which is looked for at a few places on the way
+//! to it. A device does the same in `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so
+//! that a picture is the same each time.
 
 use super::blade::{Set, rows};
 use super::species::Species;
@@ -160,7 +161,7 @@ fn tallest(species: &Species) -> f32 {
     species.height * species.stalk.max(1.0) + species.spread
 }
 
-/// How many of the sets stand at a distance, where pixels are so many times as large.
+/// How many of the sets stand at a distance, where pixels are so many times as large ([`coarser`]).
 pub fn share(distance: f32, coarser: f32) -> f32 {
     let thinned = libm::powf(WHOLE / (coarser * distance).max(WHOLE), THINNING);
     thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
