@@ -6,9 +6,15 @@
 @group(2) @binding(4) var<storage, read> starts: array<u32>;
 @group(2) @binding(5) var<storage, read> lit_sets: array<LitSet>;
 
-fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
+fn leaf(list: u32, corner: u32, clump: u32) -> Leaf {
     let count = arrayLength(&sets);
-    let place = starts[place_of_run(list, 0u, count)] + instance_number / BLADES;
+    let corners = 2u * choice.rows[list];
+    let vertex = corner % corners;
+    let number = clump * CLUMP * BLADES + corner / corners;
+    let place = starts[place_of_run(list, 0u, count)] + number / BLADES;
+    if place >= starts[place_of_run(list + 1u, 0u, count)] {
+        return Leaf(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0));
+    }
     let instance = unpack(sets[kept[place]]);
     let known = lit_sets[place];
     let root = known.root;
@@ -18,7 +24,7 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let row = vertex / 2u;
     let along = (f32(row) - f32(row % 2u) * row_slide(list, as_counted)) / f32(choice.rows[list] - 1u);
     let side = f32(vertex % 2u) * 2.0 - 1.0;
-    var blade = blade_of(instance.species, instance.tuft, instance_number % BLADES);
+    var blade = blade_of(instance.species, instance.tuft, number % BLADES);
     // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
     let standing = select(1.0, share(distance), choice.thinned == 1u);
     let seen = 0.8 * distance * frame.eye.w;

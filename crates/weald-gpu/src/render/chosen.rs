@@ -49,9 +49,8 @@ impl Renderer {
         self.render(camera)?;
         let mut grass = Vec::new();
         for loaded in self.grass.iter().flat_map(Grass::loaded) {
-            let (lit, draws) = (words(&self.gpu, &loaded.lit)?, words(&self.gpu, &loaded.draws)?);
-            // Six blades of each set are drawn.
-            let count: u32 = draws.chunks_exact(4).take(LISTS).map(|draw| draw[1] / 6).sum();
+            let (lit, starts) = (words(&self.gpu, &loaded.lit)?, words(&self.gpu, &loaded.starts)?);
+            let count = starts.last().copied().unwrap_or(0);
             let root = |set: &[u32]| [0, 1, 2].map(|at| f32::from_bits(set[at]));
             grass.extend(lit.chunks_exact(8).take(count as usize).map(root));
         }

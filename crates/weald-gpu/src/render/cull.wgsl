@@ -5,11 +5,12 @@
 //
 // Blelloch 1990, "Prefix sums and their applications"; within a workgroup by Hillis and Steele 1986.
 
-// What an indirect draw wants.
+// What an indexed indirect draw wants.
 struct Draw {
-    vertices: u32,
+    indices: u32,
     instances: u32,
-    first_vertex: u32,
+    first_index: u32,
+    base_vertex: u32,
     first_instance: u32,
 }
 
@@ -20,8 +21,13 @@ struct Draw {
 @group(2) @binding(4) var<storage, read_write> starts: array<u32>;
 // The draws of all lists, and the dispatch of what lights the sets in them.
 @group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS + 1u>;
-// For each run the lists of its sets, two bits each.
+// For each run the lists of its sets, two bits each: of a run of which none is drawn, all bits.
 @group(2) @binding(6) var<storage, read_write> marks: array<u32>;
+
+@group(2) @binding(7) var<storage, read> runs: array<RunBounds>;
+
+// Marks of a run of which no set is drawn.
+const NONE_DRAWN = 0xffffffffu;
 
 var<workgroup> sums: array<u32, GROUP>;
 
@@ -64,21 +70,27 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
     if first >= count {
         return;
     }
-    var lists = 0u;
+    var lists = NONE_DRAWN;
     // Five bits for each list.
     var counts = 0u;
-    for (var number = first; number < first + RUN; number++) {
+    let end = first + select(0u, RUN, may_any_be_drawn(runs[at.x]));
+    for (var number = first; number < end; number++) {
         var chosen = LISTS;
         if number < count {
             chosen = chosen_list(number);
         }
-        lists |= chosen << (2u * (number - first));
+        lists ^= (LISTS ^ chosen) << (2u * (number - first));
         counts += select(0u, 1u << (5u * chosen), chosen < LISTS);
     }
     marks[at.x] = lists;
     for (var each = 0u; each < LISTS; each++) {
         starts[place_of_run(each, at.x, count)] = (counts >> (5u * each)) & 31u;
     }
+}
+
+// Corners of the triangles of an instance, as `blades.rs` has them.
+fn corners_of(list: u32) -> u32 {
+    return CLUMP * BLADES * 6u * (max(choice.rows[list], 1u) - 1u);
 }
 
 // One workgroup, of which each thread sums a stretch.
@@ -102,13 +114,17 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
     }
     if thread == GROUP - 1u {
         starts[all] = upto;
-        draws[LISTS] = Draw((upto + GROUP - 1u) / GROUP, 1u, 1u, 0u);
+        draws[LISTS] = Draw((upto + GROUP - 1u) / GROUP, 1u, 1u, 0u, 0u);
     }
     storageBarrier();
     if thread < LISTS {
         let begin = starts[place_of_run(thread, 0u, count)];
         let end = starts[place_of_run(thread + 1u, 0u, count)];
-        draws[thread] = Draw(2u * choice.rows[thread], (end - begin) * BLADES, 0u, 0u);
+        var first = 0u;
+        for (var before = 0u; before < thread; before++) {
+            first += corners_of(before);
+        }
+        draws[thread] = Draw(corners_of(thread), (end - begin + CLUMP - 1u) / CLUMP, first, 0u, 0u);
     }
 }
 
@@ -125,7 +141,8 @@ fn gather(@builtin(global_invocation_id) at: vec3<u32>) {
         starts[place_of_run(1u, at.x, count)],
         starts[place_of_run(2u, at.x, count)],
     );
-    for (var number = first; number < min(first + RUN, count); number++) {
+    let end = select(min(first + RUN, count), first, lists == NONE_DRAWN);
+    for (var number = first; number < end; number++) {
         let chosen = vec3<u32>((lists >> (2u * (number - first))) & 3u);
         let is_in = chosen == vec3<u32>(0u, 1u, 2u);
         if any(is_in) {

@@ -2,7 +2,8 @@
 //!
 //! The processor makes the instances of 16 bytes of the squares around the camera (`weald::grow::grass`), as often as it
 //! comes into another square; all else happens on the device. Three passes (`cull.wgsl`) put those in sight into one of
-//! three lists by distance, of which each is an indirect draw of blades with fewer vertices. The farther, the fewer sets
+//! three lists by distance, of which each is an indirect draw of blades with fewer vertices. Sets that are close together lie
+//! side by side, so that one look leaves out those of a run that no camera there sees (`runs.rs`). The farther, the fewer sets
 //! stand, and the broader are their blades; a set sinks into the ground over a stretch of the way, so that none vanishes
 //! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition).
 
@@ -15,13 +16,13 @@ use weald::{Error, Landscape};
 use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType,
     BufferBindingType, CommandEncoder, ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPass, RenderPipeline,
-    ShaderModule, ShaderStages,
+    IndexFormat, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPass,
+    RenderPipeline, ShaderModule, ShaderStages,
 };
 
+use super::blades;
 use super::grass_layer::{Around, DRAW, GrassLayer, LoadedSets};
 use super::layouts::{Layouts, STAGE_GROUP};
-use super::strips::strips;
 use super::timing::Timer;
 use crate::gpu::Gpu;
 
@@ -80,9 +81,9 @@ impl Grass {
                 gpu.context.known.computing((module.clone(), name.to_owned()), make)
             });
             let lighting = lighting(gpu, scene, &whole(&layouts.frame.layout, &own[1]));
-            let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
+            let module = self::module(gpu, scene, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[2]);
-            let draws = LISTS.map(|name| strips(&gpu.context, (&blades, &layout), name, samples));
+            let draws = LISTS.map(|name| blades::pipeline(&gpu.context, (&module, &layout), name, samples));
             Ok(Some(Self {
                 layers,
                 choosing: choosing.to_vec(),
@@ -143,9 +144,10 @@ impl Grass {
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
         for loaded in self.loaded() {
             pass.set_bind_group(2, &loaded.draw, &[]);
+            pass.set_index_buffer(loaded.corners.buffer.slice(..), IndexFormat::Uint16);
             for (list, pipeline) in (0..).zip(&self.draws) {
                 pass.set_pipeline(pipeline);
-                pass.draw_indirect(&loaded.draws.buffer, DRAW * list);
+                pass.draw_indexed_indirect(&loaded.draws.buffer, DRAW * list);
             }
         }
     }
@@ -186,7 +188,7 @@ fn lighting(gpu: &Gpu, scene: &LitScene, layout: &PipelineLayout) -> ComputePipe
 /// The stage of a pass, and which of its buffers are only read, after the species, what is shown, and the sets: those that
 /// are kept, where their lists start; then the draws and marks, or the lit sets.
 type Own = (ShaderStages, &'static [bool]);
-const CHOOSES: Own = (ShaderStages::COMPUTE, &[false; 4]);
+const CHOOSES: Own = (ShaderStages::COMPUTE, &[false, false, false, false, true]);
 const LIGHTS: Own = (ShaderStages::COMPUTE, &[true, true, false]);
 const DRAWS: Own = (ShaderStages::VERTEX, &[true; 3]);
 

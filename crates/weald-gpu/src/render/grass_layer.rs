@@ -9,7 +9,9 @@ use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
 use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
 
+use super::blades;
 use super::grass_look::GrassLook;
+use super::runs::{self, RUN};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::transfer::uniform;
@@ -25,14 +27,19 @@ const SET: u64 = 16;
 const CHOSEN: u64 = 4;
 const MARKS: u64 = 4;
 
+/// Bytes of the bounds of a run.
+const BOUNDS: u64 = 16;
+
 /// Bytes of what all blades of a chosen set have in common.
 const LIT: u64 = 32;
 
-/// Bytes of what an indirect draw wants.
-pub(super) const DRAW: u64 = 16;
+/// Bytes of the corner of a triangle.
+const CORNER: u64 = 2;
 
-/// Sets of a thread that chooses, and threads of a workgroup, as `meadow.wgsl` has them.
-const RUN: u32 = 16;
+/// Bytes of what an indexed indirect draw wants.
+pub(super) const DRAW: u64 = 20;
+
+/// Threads of a workgroup, as `meadow.wgsl` has them.
 const GROUP: u32 = 256;
 
 /// One grass of a landscape.
@@ -91,7 +98,9 @@ pub(super) struct LoadedSets {
     pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
     pub(super) lit: Store,
-    _others: [Store; 2],
+    /// Those of the triangles of an instance that is drawn.
+    pub(super) corners: Store,
+    _others: [Store; 3],
 }
 
 impl GrassLayer {
@@ -211,17 +220,18 @@ impl Seeds {
         if sets.is_empty() {
             return Ok(None);
         }
+        let sets = runs::in_order(sets);
         let count = sets.len() as u32;
-        let stores = Stores::new(
-            gpu,
-            u64::from(count),
-            Choice {
-                culled: u32::from(look.culled),
-                hides: u32::from(look.culled && !self.has_holes),
-                ..if look.thinned { Choice::of_a_picture() } else { Choice::of_all(level) }
-            },
-        )?;
+        let choice = Choice {
+            culled: u32::from(look.culled),
+            hides: u32::from(look.culled && !self.has_holes),
+            ..if look.thinned { Choice::of_a_picture() } else { Choice::of_all(level) }
+        };
+        let corners = blades::corners([choice.rows[0], choice.rows[1], choice.rows[2]]);
+        let stores = Stores::new(gpu, u64::from(count), &choice, corners.len())?;
+        crate::transfer::write(gpu, &stores.corners.buffer, bytemuck::cast_slice(&corners))?;
         crate::transfer::write(gpu, &stores.sets.buffer, bytemuck::cast_slice(&sets))?;
+        crate::transfer::write(gpu, &stores.runs.buffer, bytemuck::cast_slice(&runs::bounds(&sets)))?;
         Ok(Some(stores.bound(gpu, &self.grasses, count, layouts)?))
     }
 }
@@ -284,24 +294,32 @@ struct Stores {
     starts: Store,
     draws: Store,
     marks: Store,
+    runs: Store,
     lit: Store,
+    corners: Store,
 }
 
 impl Stores {
-    fn new(gpu: &Gpu, count: u64, choice: Choice) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, count: u64, choice: &Choice, corners: usize) -> Result<Self, Error> {
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let store = |what, bytes, usage| Store::new(gpu, what, bytes, usage);
         let lists = LISTS as u64;
         let runs = count.div_ceil(u64::from(RUN));
         let starts = 4 * (lists * runs + 1);
         Ok(Self {
-            choice: uniform(gpu, "what is shown of grass", &choice)?,
+            choice: uniform(gpu, "what is shown of grass", choice)?,
             sets: store("sets of grass", SET * count, storage)?,
             kept: store("grass in sight", CHOSEN * count, storage)?,
             starts: store("starts of the lists of grass", starts, storage)?,
             draws: store("draws of grass", DRAW * (lists + 1), storage | BufferUsages::INDIRECT)?,
             marks: store("marks of grass", MARKS * runs, storage)?,
+            runs: store("runs of grass", BOUNDS * runs, storage)?,
             lit: store("lit grass", LIT * count, storage)?,
+            corners: store(
+                "corners of blades",
+                CORNER * corners as u64,
+                BufferUsages::INDEX | BufferUsages::COPY_DST,
+            )?,
         })
     }
 
@@ -312,13 +330,14 @@ impl Stores {
         count: u32,
         [to_choose, to_light, to_draw]: &[BindGroupLayout; 3],
     ) -> Result<LoadedSets, Error> {
-        let Self { choice, sets, kept, starts, draws, marks, lit } = self;
+        let Self { choice, sets, kept, starts, draws, marks, runs, lit, corners } = self;
         let drawn = [grasses, &choice, &sets, &kept, &starts];
-        let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks]].concat())?;
+        let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks, &runs]].concat())?;
         let with_lit = [&drawn[..], &[&lit]].concat();
         let light = bind(gpu, to_light, &with_lit)?;
         let draw = bind(gpu, to_draw, &with_lit)?;
-        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, _others: [marks, choice] })
+        let others = [marks, runs, choice];
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, corners, _others: others })
     }
 }
 

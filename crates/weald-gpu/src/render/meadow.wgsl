@@ -10,6 +10,9 @@ const LISTS = 3u;
 // Sets that one thread chooses from, one after the other.
 const RUN = 16u;
 
+// Sets of an instance that is drawn.
+const CLUMP = 8u;
+
 // Threads of a workgroup.
 const GROUP = 256u;
 
@@ -80,9 +83,15 @@ fn list(distance: f32) -> u32 {
     return select(select(2u, 1u, distance < MIDDLE), 0u, distance < NEAR);
 }
 
-// Whether a set at a place may be drawn, whatever the height of the ground there, which is not looked up for all others.
-fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
-    let away = vec2<f32>(place.x, -place.y) - frame.moment.yz;
+// Where the sets of a run are, and the least of their ranks.
+struct RunBounds {
+    middle: vec2<f32>,
+    radius: f32,
+    rank: f32,
+}
+
+// Whether what is around a place, and around whatever ground there is, may be in sight.
+fn may_be_in_sight(place: vec2<f32>, radius: f32) -> bool {
     if choice.culled == 1u {
         let from_eye = vec2<f32>(place.x, -place.y) - frame.eye.xy;
         // Ground lies between 0 and the highest of all; a simulation that is followed may dig and heap up.
@@ -93,11 +102,24 @@ fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
         let tilted = abs(frame.right.z) * max(abs(heights.x), abs(heights.y));
         let aside = abs(dot(from_eye, frame.right.xy)) - tilted;
         let spread = sqrt(1.0 + frame.right.w * frame.right.w);
-        if depth < -AROUND || aside > depth * frame.right.w + AROUND * spread {
-            return false;
-        }
+        return depth >= -radius && aside <= depth * frame.right.w + radius * spread;
     }
-    return height_share(rank_of(tuft), length(away)) > 0.0;
+    return true;
+}
+
+fn distance_along_ground(place: vec2<f32>) -> f32 {
+    return length(vec2<f32>(place.x, -place.y) - frame.moment.yz);
+}
+
+// Whether a set may be drawn, whatever the height of the ground there, which is not looked up for all others.
+fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
+    return may_be_in_sight(place, AROUND) && height_share(rank_of(tuft), distance_along_ground(place)) > 0.0;
+}
+
+// Whether any set of a run may be.
+fn may_any_be_drawn(run: RunBounds) -> bool {
+    let nearest = max(distance_along_ground(run.middle) - run.radius, 0.0);
+    return may_be_in_sight(run.middle, AROUND + run.radius) && height_share(run.rank, nearest) > 0.0;
 }
 
 // Metres above its root that no blade of a species exceeds, nor lies aside of it.

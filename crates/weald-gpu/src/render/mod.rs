@@ -6,6 +6,7 @@
 //! grass and plants; then the light of what of the ground, the plain and the sky they leave in sight, all of it linear in
 //! 16-bit floats with depth reversed. Tone mapping brings light to the numbers of a picture. [`renderer`] has their order.
 
+mod blades;
 mod canopy;
 mod cascades;
 mod chosen;
@@ -34,10 +35,10 @@ mod picture;
 mod plants;
 mod renderer;
 mod returning;
+mod runs;
 mod screen;
 mod shadows;
 mod spacing;
-mod strips;
 mod tables;
 mod targets;
 mod terrain;

@@ -1,0 +1,90 @@
+//! The pipelines of blades, whose vertices shaders make alone, and the corners of their triangles.
+//!
+//! One instance holds some sets: the vertices of a single blade would leave a part of what a device does at once idle, and
+//! each instance costs software (llvmpipe) as much as some vertices do.
+
+use weald::grow::grass::BLADES;
+use weald::grow::grass::choice::LISTS;
+
+use wgpu::{
+    ColorTargetState, ColorWrites, CompareFunction, FragmentState, MultisampleState,
+    PipelineCompilationOptions, PipelineLayout, PrimitiveState, RenderPipeline, RenderPipelineDescriptor,
+    ShaderModule, VertexState,
+};
+
+use super::layouts::depth_state;
+use super::targets::LIGHT;
+use crate::gpu::context::Context;
+
+/// Sets of an instance, as `meadow.wgsl` has them.
+const CLUMP: u16 = 8;
+
+/// The corners of the triangles of an instance, list by list and blade by blade, for blades of so many rows: two triangles
+/// between a row and the next.
+pub(super) fn corners(rows: [u32; LISTS]) -> Vec<u16> {
+    let of_list = |rows: u16| {
+        let first_of = move |blade: u16| (0..rows.saturating_sub(1)).map(move |row| 2 * (blade * rows + row));
+        (0..CLUMP * BLADES as u16).flat_map(first_of)
+    };
+    let firsts = rows.into_iter().flat_map(|rows| of_list(rows as u16));
+    firsts.flat_map(|first| [0, 1, 2, 2, 1, 3].map(|corner| first + corner)).collect()
+}
+
+/// A pipeline without vertex buffers, from a vertex entry point to `blade_fragment`.
+pub(super) fn pipeline(
+    context: &Context,
+    (module, layout): (&ShaderModule, &PipelineLayout),
+    vertex: &str,
+    samples: u32,
+) -> RenderPipeline {
+    let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
+    let make = || {
+        context.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some(vertex),
+            layout: Some(layout),
+            vertex: VertexState {
+                module,
+                entry_point: Some(vertex),
+                compilation_options: PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: Some(depth_state(true, CompareFunction::Greater)),
+            multisample: MultisampleState { count: samples, ..MultisampleState::default() },
+            fragment: Some(FragmentState {
+                module,
+                entry_point: Some("blade_fragment"),
+                compilation_options: PipelineCompilationOptions::default(),
+                targets: &[Some(target)],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    };
+    context.known.drawing((module.clone(), format!("{vertex} {samples}")), make)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_join_the_rows_of_each_blade_and_no_blades() {
+        let rows = [20, 3, 0];
+        let corners = corners(rows);
+        let blades = usize::from(CLUMP) * BLADES as usize;
+        assert_eq!(corners.len(), blades * 6 * (19 + 2));
+        let (near, middle) = corners.split_at(blades * 6 * 19);
+        for (list, rows) in [(near, 20), (middle, 3)] {
+            for (number, triangle) in list.chunks_exact(3).enumerate() {
+                let blade = number / (2 * (rows - 1));
+                assert!(triangle.iter().all(|corner| usize::from(*corner) / (2 * rows) == blade));
+                let row = |corner: u16| usize::from(corner) % (2 * rows) / 2;
+                let [least, most] =
+                    [triangle.iter().min(), triangle.iter().max()].map(|at| row(*at.expect("three")));
+                assert_eq!(most - least, 1, "{triangle:?}");
+            }
+            assert_eq!(usize::from(*list.iter().max().expect("some")), 2 * rows * blades - 1);
+        }
+    }
+}
