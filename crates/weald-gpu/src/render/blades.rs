@@ -1,11 +1,10 @@
 //! The pipelines of blades, whose vertices shaders make alone, and the corners of their triangles.
 //!
-//! One instance holds some sets: the vertices of a single blade would leave a part of what a device does at once idle, and
-//! each instance costs software (llvmpipe) as much as some vertices do.
+//! One instance holds some sets: the vertices of a single blade fill no whole number of a processor's lanes, and for software
+//! (llvmpipe) each instance is a draw of its own.
 
 use weald::grow::grass::BLADES;
 use weald::grow::grass::choice::LISTS;
-
 use wgpu::{
     ColorTargetState, ColorWrites, CompareFunction, FragmentState, MultisampleState,
     PipelineCompilationOptions, PipelineLayout, PrimitiveState, RenderPipeline, RenderPipelineDescriptor,
@@ -17,14 +16,14 @@ use super::targets::LIGHT;
 use crate::gpu::context::Context;
 
 /// Sets of an instance, as `meadow.wgsl` has them.
-const CLUMP: u16 = 8;
+const SETS_PER_INSTANCE: u16 = 8;
 
 /// The corners of the triangles of an instance, list by list and blade by blade, for blades of so many rows: two triangles
 /// between a row and the next.
 pub(super) fn corners(rows: [u32; LISTS]) -> Vec<u16> {
     let of_list = |rows: u16| {
         let first_of = move |blade: u16| (0..rows.saturating_sub(1)).map(move |row| 2 * (blade * rows + row));
-        (0..CLUMP * BLADES as u16).flat_map(first_of)
+        (0..SETS_PER_INSTANCE * BLADES as u16).flat_map(first_of)
     };
     let firsts = rows.into_iter().flat_map(|rows| of_list(rows as u16));
     firsts.flat_map(|first| [0, 1, 2, 2, 1, 3].map(|corner| first + corner)).collect()
@@ -72,7 +71,7 @@ mod tests {
     fn corners_join_the_rows_of_each_blade_and_no_blades() {
         let rows = [20, 3, 0];
         let corners = corners(rows);
-        let blades = usize::from(CLUMP) * BLADES as usize;
+        let blades = usize::from(SETS_PER_INSTANCE) * BLADES as usize;
         assert_eq!(corners.len(), blades * 6 * (19 + 2));
         let (near, middle) = corners.split_at(blades * 6 * 19);
         for (list, rows) in [(near, 20), (middle, 3)] {

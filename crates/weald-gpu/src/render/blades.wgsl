@@ -6,12 +6,13 @@
 @group(2) @binding(4) var<storage, read> starts: array<u32>;
 @group(2) @binding(5) var<storage, read> lit_sets: array<LitSet>;
 
-fn leaf(list: u32, corner: u32, clump: u32) -> Leaf {
+fn leaf(list: u32, vertex_number: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
-    let corners = 2u * choice.rows[list];
-    let vertex = corner % corners;
-    let number = clump * CLUMP * BLADES + corner / corners;
+    let vertices = 2u * choice.rows[list];
+    let vertex = vertex_number % vertices;
+    let number = instance_number * SETS_PER_INSTANCE * BLADES + vertex_number / vertices;
     let place = starts[place_of_run(list, 0u, count)] + number / BLADES;
+    // The last instance has room for sets that there are not: all of their vertices lie in one point.
     if place >= starts[place_of_run(list + 1u, 0u, count)] {
         return Leaf(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0));
     }

@@ -23,7 +23,6 @@ struct Draw {
 @group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS + 1u>;
 // For each run the lists of its sets, two bits each: of a run of which none is drawn, all bits.
 @group(2) @binding(6) var<storage, read_write> marks: array<u32>;
-
 @group(2) @binding(7) var<storage, read> runs: array<RunBounds>;
 
 // Marks of a run of which no set is drawn.
@@ -79,6 +78,7 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
         if number < count {
             chosen = chosen_list(number);
         }
+        // From the two bits of none to those of the list.
         lists ^= (LISTS ^ chosen) << (2u * (number - first));
         counts += select(0u, 1u << (5u * chosen), chosen < LISTS);
     }
@@ -90,7 +90,7 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
 
 // Corners of the triangles of an instance, as `blades.rs` has them.
 fn corners_of(list: u32) -> u32 {
-    return CLUMP * BLADES * 6u * (max(choice.rows[list], 1u) - 1u);
+    return SETS_PER_INSTANCE * BLADES * 6u * (max(choice.rows[list], 1u) - 1u);
 }
 
 // One workgroup, of which each thread sums a stretch.
@@ -124,7 +124,7 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
         for (var before = 0u; before < thread; before++) {
             first += corners_of(before);
         }
-        draws[thread] = Draw(corners_of(thread), (end - begin + CLUMP - 1u) / CLUMP, first, 0u, 0u);
+        draws[thread] = Draw(corners_of(thread), (end - begin + SETS_PER_INSTANCE - 1u) / SETS_PER_INSTANCE, first, 0u, 0u);
     }
 }
 

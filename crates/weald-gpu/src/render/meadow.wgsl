@@ -11,7 +11,7 @@ const LISTS = 3u;
 const RUN = 16u;
 
 // Sets of an instance that is drawn.
-const CLUMP = 8u;
+const SETS_PER_INSTANCE = 8u;
 
 // Threads of a workgroup.
 const GROUP = 256u;
