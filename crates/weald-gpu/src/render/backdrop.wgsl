@@ -27,26 +27,41 @@ fn meets_sky(texel: vec2<f32>) -> bool {
     return farthest <= 0.0;
 }
 
+// Whether the eye is above the base of clouds, which are then before all else.
+fn is_over_clouds() -> bool {
+    return frame.eye.z > scene.cloud_height.x;
+}
+
 @fragment
 fn clouds_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     var clouds = vec4<f32>(0.0, 0.0, 0.0, 1.0);
     // A loop of one turn or none: software would look for clouds in a condition.
-    for (var look = 0u; look < select(0u, 1u, meets_sky(position.xy)); look++) {
-        let direction = backdrop_direction(2.0 * position.xy);
-        clouds = clouds_before(frame.eye.xyz, direction, clear_sky(direction), frame.eye.w);
+    for (var look = 0u; look < select(0u, 1u, is_over_clouds() || meets_sky(position.xy)); look++) {
+        clouds = clouds_before(frame.eye.xyz, backdrop_direction(2.0 * position.xy), frame.eye.w);
     }
     return vec4<f32>(limited(clouds.xyz), clouds.w);
+}
+
+// The clouds at a place of the picture.
+fn clouds_at(position: vec2<f32>) -> vec4<f32> {
+    let place = 0.5 * position / vec2<f32>(textureDimensions(cloud_light));
+    return textureSampleLevel(cloud_light, between, place, 0.0);
 }
 
 @fragment
 fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     var radiance = clear_sky(backdrop_direction(position.xy));
     if CLOUDS {
-        let place = 0.5 * position.xy / vec2<f32>(textureDimensions(cloud_light));
-        let clouds = textureSampleLevel(cloud_light, between, place, 0.0);
-        radiance = clouds.xyz + clouds.w * radiance;
+        let clouds = clouds_at(position.xy);
+        radiance = select(clouds.xyz + clouds.w * radiance, radiance, is_over_clouds());
     }
     return vec4<f32>(limited(radiance), 1.0);
+}
+
+// Clouds that an eye above them sees before all that is drawn.
+@fragment
+fn clouds_over_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return clouds_at(position.xy);
 }
 
 @fragment

@@ -30,6 +30,7 @@ pub struct SceneUpdate {
     heights: Heights,
     errors: Vec<f32>,
     has_horizon: bool,
+    cloud_base: Option<f32>,
 }
 
 /// Some rows of a layer of a map.
@@ -59,6 +60,7 @@ impl SceneUpdate {
             heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
             errors: errors(top, lattice.all_levels()),
             has_horizon: beyond.is_some(),
+            cloud_base: scene.cloud_base(),
             rows: None,
             of_rows: scene.cells()[1],
             maps,
@@ -148,6 +150,11 @@ impl Coming {
         }
         maps.send_numbers(gpu, &self.update.uniforms);
         true
+    }
+
+    /// The height at which clouds begin.
+    pub(super) fn cloud_base(&self) -> Option<f32> {
+        self.update.cloud_base
     }
 
     /// The heights of the ground, and the errors of its levels.

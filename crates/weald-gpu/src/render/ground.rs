@@ -124,11 +124,13 @@ pub(super) struct InSight {
     sky: bool,
     /// What lies below the horizon behind all ground.
     plain: bool,
+    /// Whether the camera is above the base of clouds.
+    is_over_clouds: bool,
 }
 
 impl InSight {
-    /// Of a camera that is so high above all ground, for pixels of such an angle.
-    pub(super) fn of(camera: &Camera, above: f32, pixel_angle: f32) -> Self {
+    /// Of a camera that is so high above all ground, for pixels of such an angle, where clouds begin at a height.
+    pub(super) fn of(camera: &Camera, above: f32, pixel_angle: f32, cloud_base: Option<f32>) -> Self {
         let Camera { forward, right, up, half, .. } = camera;
         let aside = (half[0] * right[2]).abs() + (half[1] * up[2]).abs();
         // A hundredth for what a device rounds otherwise.
@@ -136,6 +138,7 @@ impl InSight {
             is_near: above * pixel_angle < 1.01 * DETAIL_FROM,
             sky: forward[2] + aside > -0.01,
             plain: forward[2] - aside < 0.01,
+            is_over_clouds: cloud_base.is_some_and(|base| camera.eye[2] > base),
         }
     }
 }
@@ -146,8 +149,8 @@ pub(super) struct Ground {
     depth: RenderPipeline,
     beyond: Option<RenderPipeline>,
     kind: RenderPipeline,
-    /// The light of clouds; `None` where there are none.
-    clouds: Option<RenderPipeline>,
+    /// The light of clouds, and what draws it before all else; `None` where there are none.
+    clouds: Option<[RenderPipeline; 2]>,
     /// With the kinds that each draws, and those of them where nothing is close by.
     lights: Vec<(RenderPipeline, [Range<u32>; 2])>,
     backdrop: [RenderPipeline; 2],
@@ -176,7 +179,7 @@ impl Ground {
             depth: parts.depth("ground_vertex"),
             beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
-            clouds: parts.has.clouds.then(|| parts.clouds()),
+            clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
             lights: made.zip(kinds).collect(),
             backdrop,
         })
@@ -192,9 +195,9 @@ impl Ground {
         }
     }
 
-    /// Draws the light of clouds where the sky is in sight; nothing where there are none.
+    /// Draws the light of clouds where they are in sight; nothing where there are none.
     pub(super) fn draw_clouds(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
-        if let Some(clouds) = &self.clouds {
+        if let Some([clouds, _]) = &self.clouds {
             pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
             pass.set_pipeline(clouds);
             pass.draw(0..3, 0..1);
@@ -203,7 +206,7 @@ impl Ground {
 
     /// Whether a picture has clouds.
     pub(super) fn has_clouds(&self, in_sight: InSight) -> bool {
-        self.clouds.is_some() && in_sight.sky
+        self.clouds.is_some() && (in_sight.sky || in_sight.is_over_clouds)
     }
 
     /// Draws the kind of each pixel.
@@ -225,7 +228,8 @@ impl Ground {
         }
     }
 
-    /// Draws the light of every pixel that has none, from the depths with the light of clouds and without.
+    /// Draws the light of every pixel that has none, from the depths with the light of clouds and without, and clouds that are
+    /// before all.
     pub(super) fn draw_backdrop(
         &self,
         pass: &mut RenderPass<'_>,
@@ -238,6 +242,11 @@ impl Ground {
                 pass.set_pipeline(&self.backdrop[which]);
                 pass.draw(0..3, BACKDROP[which].kinds.clone());
             }
+        }
+        if let Some([_, over]) = self.clouds.as_ref().filter(|_| in_sight.is_over_clouds) {
+            pass.set_bind_group(DEPTHS_GROUP, &depths[1], &[]);
+            pass.set_pipeline(over);
+            pass.draw(0..3, 0..1);
         }
     }
 }
@@ -253,7 +262,7 @@ mod tests {
         for number in 0..4000_u64 {
             let random = |purpose: u64| 2.0 * unit(splitmix64(number ^ splitmix64(purpose))) as f32 - 1.0;
             let camera = Camera::looking([0.0; 3], unit_of([0, 1, 2].map(random)), [0.6, 0.4]);
-            let in_sight = InSight::of(&camera, 50.0, 1e-3);
+            let in_sight = InSight::of(&camera, 50.0, 1e-3, None);
             let rises = camera.ray([random(3), random(4)]).direction[2];
             assert!(in_sight.is_near && (in_sight.sky || rises < 0.0) && (in_sight.plain || rises >= 0.0));
             with_sky += u32::from(in_sight.sky);
@@ -261,7 +270,10 @@ mod tests {
         }
         assert!((1500..3900).contains(&with_sky) && (1500..3900).contains(&with_plain));
         let camera = Camera::looking([0.0; 3], [1.0, 0.0, 0.0], [0.6, 0.4]);
-        assert!(InSight::of(&camera, 299.0, 1e-3).is_near && !InSight::of(&camera, 304.0, 1e-3).is_near);
+        assert!(
+            InSight::of(&camera, 299.0, 1e-3, None).is_near
+                && !InSight::of(&camera, 304.0, 1e-3, None).is_near
+        );
     }
 
     fn unit_of(v: [f32; 3]) -> [f32; 3] {

@@ -33,7 +33,11 @@ pub(super) struct SceneParts {
 impl SceneParts {
     /// What a scene has.
     pub(super) fn of(scene: &LitScene) -> Self {
-        Self { holes: scene.has_holes(), clouds: scene.has_clouds(), horizon: scene.beyond().is_some() }
+        Self {
+            holes: scene.has_holes(),
+            clouds: scene.cloud_base().is_some(),
+            horizon: scene.beyond().is_some(),
+        }
     }
 }
 
@@ -71,6 +75,20 @@ const LAID_OVER: BlendState = BlendState {
         operation: BlendOperation::Add,
     },
     alpha: BlendComponent::OVER,
+};
+
+/// What lets through a share of what is there.
+const BEFORE_ALL: BlendState = BlendState {
+    color: BlendComponent {
+        src_factor: BlendFactor::One,
+        dst_factor: BlendFactor::SrcAlpha,
+        operation: BlendOperation::Add,
+    },
+    alpha: BlendComponent {
+        src_factor: BlendFactor::Zero,
+        dst_factor: BlendFactor::One,
+        operation: BlendOperation::Add,
+    },
 };
 
 impl Parts<'_> {
@@ -129,6 +147,24 @@ impl Parts<'_> {
             ],
             target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
             depth: Some((false, CompareFunction::Equal)),
+        })
+    }
+
+    /// The light of clouds before all that is drawn.
+    pub(super) fn clouds_over(&self) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: "clouds over".to_owned(),
+            layout: self.layouts[2],
+            samples: self.samples,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some("clouds_over_fragment"),
+            constants: &[],
+            target: Some(ColorTargetState {
+                format: LIGHT,
+                blend: Some(BEFORE_ALL),
+                write_mask: ColorWrites::ALL,
+            }),
+            depth: Some((false, CompareFunction::Always)),
         })
     }
 

@@ -78,6 +78,8 @@ pub struct Renderer {
     /// What has become of the scene and is not on the device yet.
     pub(super) coming: Option<Coming>,
     pub(super) has_water: bool,
+    /// The height at which clouds begin.
+    pub(super) cloud_base: Option<f32>,
     /// Whether water is left out, to be measured.
     pub(super) is_dry: bool,
     /// Moment of the next picture, by which water flows.
@@ -140,6 +142,7 @@ impl Renderer {
             follower: None,
             coming: None,
             has_water: scene.has_water(),
+            cloud_base: scene.cloud_base(),
             is_dry: false,
             seconds: 0.0,
         })
@@ -203,6 +206,7 @@ impl Renderer {
         let is_there = self.coming.as_mut().is_some_and(|coming| coming.send(&self.gpu, &self.maps, waits));
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
         self.shadows.forget();
+        self.cloud_base = coming.cloud_base();
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
             self.terrain.take(heights, errors);
@@ -336,7 +340,8 @@ impl Renderer {
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
         }
-        Ok((wanted, InSight::of(camera, self.terrain.above_all(camera), pixel_angle)))
+        let in_sight = InSight::of(camera, self.terrain.above_all(camera), pixel_angle, self.cloud_base);
+        Ok((wanted, in_sight))
     }
 
     /// How many triangles the ground of a camera takes.

@@ -14,9 +14,6 @@ const FINER = 6u;
 const MARCH_STEPS = 44;
 const FURTHER = 1.17;
 
-// Radians over which ripples that are too small to be seen blur what water mirrors.
-const MIRRORED_BLUR = 0.06;
-
 // Radians by which ripples that are too small to be seen throw rays apart.
 const MIRRORED_SPREAD = 0.08;
 
@@ -174,14 +171,15 @@ const MARCHED = vec2<f32>(0.12, 0.24);
 fn reflected_light(point: vec3<f32>, look: Look, ripples: Ripples, share: f32, seen: Seen) -> vec3<f32> {
     let upward = mirrored(look.direction, ripples.all, look.tilt);
     let open = clamp(seen.even.z / PI, 0.0, 1.0);
-    let rough = mix(scene.bounce.xyz, mirrored_sky(point, upward), open);
+    let sky = mirrored_sky(point, upward);
+    let rough = mix(scene.bounce.xyz, sky, open);
     let sharp = ramp(share, MARCHED.x, MARCHED.y);
     var light = rough;
     // A loop of one turn or none: software would go through what a condition leaves out.
     let looks = select(0u, 1u, sharp > 0.0);
     for (var turn = 0u; turn < looks; turn++) {
         let broad = mirrored(look.direction, ripples.broad, look.tilt);
-        light = mix(rough, mirrored_light(point, broad, upward, look.ray_length), sharp);
+        light = mix(rough, mirrored_light(point, broad, sky, look.ray_length), sharp);
     }
     return light;
 }
@@ -189,13 +187,13 @@ fn reflected_light(point: vec3<f32>, look: Look, ripples: Ripples, share: f32, s
 // The sky that water mirrors, blurred by ripples that are too small to be seen.
 fn mirrored_sky(start: vec3<f32>, upward: vec3<f32>) -> vec3<f32> {
     let sky = rippled_upward(upward);
-    return with_clouds(start, sky, sky_radiance(sky), MIRRORED_BLUR);
+    let clouds = clouds_mirrored(start, sky);
+    return clouds.xyz + clouds.w * sky_radiance(sky);
 }
 
-// The light that water mirrors: land with its own colours in a direction, or the sky in another.
-fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
+// The light that water mirrors: land with its own colours in a direction, or the light of the sky.
+fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, sky: vec3<f32>, length_before: f32) -> vec3<f32> {
     let land = land_along(start, direction);
-    let sky = mirrored_sky(start, upward);
     if land.share <= 0.0 {
         return sky;
     }

@@ -4,10 +4,13 @@
 //! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
 //! the other, and at more between them where a side is near, without what is finer than the metres from one to the next: noise
 //! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far away pale as the sky
-//! does. All numbers are chosen by eye.
+//! does, and from above, where there is less haze, by what haze there is. Water mirrors them as its ripples blur them: by one
+//! look at the broad noise. All numbers are chosen by eye.
 
+use super::haze::Haze;
 use super::sky::Sky;
 use super::solid_grain::solid_grain;
+use super::terrain::Ray;
 use super::vector::{Vector, add, dot, ramp, scale, subtract};
 use crate::colour::mix;
 use weald_core::grain::{Octaves, visible};
@@ -65,14 +68,21 @@ const FLATTER: [f32; 2] = [-0.15, 0.25];
 /// What a metre of a heap hides for each unit of noise above that of its side.
 const DENSE: f32 = 0.12;
 
-/// How many times less dense a heap is for a radian that is seen as one: its edges are as soft as what mirrors it is rough.
-const SOFTER: f32 = 80.0;
-
 /// Share of the sunlight that comes through from a sun behind.
 const GLOW: f32 = 0.05;
 
-/// How much paler a heap is for a radian that is seen as one, as the exponent of e: waves mirror clear sky beside it.
-const PALER: f32 = 30.0;
+/// Least sines of the angle at which rays that come from below and from above go through the layer: flatter ones meet it beyond
+/// all that is seen, and none is looked at further than the first of them.
+const FLATTEST: [f32; 2] = [0.01, 0.001];
+
+/// Of clouds that water mirrors: the angle in radians over which ripples blur them, the noise around that of a side over which it
+/// is so soft, what a metre of a heap hides for each unit of noise, the share of it that ripples show, which mirror clear sky
+/// beside it, and what a unit of noise takes of the sunlight.
+const MIRRORED_BLUR: f32 = 0.12;
+const MIRRORED_SOFT: f32 = 0.25;
+const MIRRORED_DENSE: f32 = 0.02;
+const MIRRORED: f32 = 0.165;
+const MIRRORED_TAKEN: f32 = 5.0;
 
 /// Metres towards the sun at which is looked how much of the heap lies there, and how much of the light that takes.
 const SUNWARD: [f32; 2] = [70.0, 260.0];
@@ -99,6 +109,23 @@ const SHADOW: f32 = 0.78;
 
 /// Metres over which the edges of their shadows are soft.
 const SOFT: f32 = 160.0;
+
+/// The light that clouds before something send along a ray, and the share of what is behind them that is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CloudLight {
+    pub(super) radiance: Vector,
+    pub(super) open: f32,
+}
+
+impl CloudLight {
+    /// No clouds.
+    const NONE: Self = Self { radiance: [0.0; 3], open: 1.0 };
+
+    /// The light along the ray, of so much behind them.
+    pub(super) fn over(self, behind: Vector) -> Vector {
+        add(self.radiance, scale(behind, self.open))
+    }
+}
 
 /// A layer of clouds.
 #[derive(Clone, Copy, Debug)]
@@ -152,10 +179,25 @@ impl Clouds {
         heap + puffs * held * puff
     }
 
-    /// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and
-    /// such an angle is seen as one. It is no whole number, which would show as lines where it changes.
-    fn levels(&self, direction: Vector, [first, blur]: [f32; 2]) -> [f32; 2] {
-        let length = THICK * self.exaggeration / direction[2];
+    /// Metres along a ray from which on it is in the layer, and for how many; `None` where it does not come there.
+    fn stretch(&self, ray: &Ray) -> Option<[f32; 2]> {
+        let [bottom, top] = [0.0, THICK].map(|up| self.height + up * self.exaggeration - ray.from[2]);
+        let rise = ray.direction[2];
+        let flattest = if bottom >= 0.0 { FLATTEST[0] } else { FLATTEST[1] };
+        let is_inside = bottom < 0.0 && top > 0.0;
+        if !is_inside && rise.abs() < flattest {
+            return None;
+        }
+        let rise = if rise < 0.0 { rise.min(-FLATTEST[1]) } else { rise.max(FLATTEST[1]) };
+        let [near, far] = if rise < 0.0 { [top, bottom] } else { [bottom, top] };
+        let first = (near / rise).max(0.0);
+        let length = (far / rise - first).min(THICK * self.exaggeration / FLATTEST[0]);
+        (length > 0.0).then_some([first, length])
+    }
+
+    /// How many levels a ray is looked at that is in the layer from so many metres on, for so many, and metres from one to the next,
+    /// where such an angle is seen as one. It is no whole number, which would show as lines where it changes.
+    fn levels(&self, [first, length]: [f32; 2], blur: f32) -> [f32; 2] {
         let most = SLICES[0] + SLICES[1] * (1.0 - blur / BLURRED).max(0.0) * libm::expf(-first / LOST);
         let count = (length / STEP).clamp(SLICES[0], most);
         [count, length / (count - 1.0)]
@@ -178,19 +220,25 @@ impl Clouds {
         )
     }
 
-    /// The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
-    pub(super) fn before(&self, sky: &Sky, [from, direction, radiance]: [Vector; 3], blur: f32) -> Vector {
-        if direction[2] < 0.01 || from[2] >= self.height {
-            return radiance;
-        }
-        let first = (self.height - from[2]) / direction[2];
-        let [count, spacing] = self.levels(direction, [first, blur]);
-        let dense = DENSE / (1.0 + SOFTER * blur);
-        let (mut sum, mut left, mut slice, mut before, mut finer) = ([0.0; 3], 1.0, 0.0, 0.0, 1.0);
+    /// The light of a point of a heap as it arrives at the start of a ray, and how much of it is seen there.
+    fn pale(&self, light: Vector, (sky, haze): (&Sky, Haze), ray: &Ray, reach: f32) -> (Vector, f32) {
+        let above = ((ray.from[2] - self.height) / (THICK * self.exaggeration)).clamp(0.0, 1.0);
+        let veiled = if above > 0.0 { mix(light, haze.veil(light, ray, reach, sky), above) } else { light };
+        (veiled, libm::expf((above - 1.0) * reach / LOST))
+    }
+
+    /// The clouds along a ray; `blur` is the angle in radians that is seen as one.
+    pub(super) fn before(&self, (sky, haze): (&Sky, Haze), ray: &Ray, blur: f32) -> CloudLight {
+        let Some([first, length]) = self.stretch(ray) else {
+            return CloudLight::NONE;
+        };
+        let [count, spacing] = self.levels([first, length], blur);
+        let mut clouds = CloudLight::NONE;
+        let (mut left, mut slice, mut before, mut finer) = (1.0, 0.0, 0.0, 1.0);
         while slice <= count - 1.0 && left > UNSEEN {
             let (reach, apart) = (first + slice * spacing, spacing / finer);
             let footprint = apart.max(blur * reach);
-            let here = self.within(add(from, scale(direction, reach)), footprint);
+            let here = self.within(ray.at(reach), footprint);
             if here > -SIDE && finer < FINER {
                 // The side is looked for from the level before, in small steps.
                 finer = FINER;
@@ -199,12 +247,12 @@ impl Clouds {
             }
             // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
             let [within, middle] = if slice > 0.0 { inside(before, here) } else { [0.0; 2] };
-            let hidden = left * (1.0 - libm::expf(-dense * apart * within));
+            let hidden = left * (1.0 - libm::expf(-DENSE * apart * within));
             if hidden > UNSEEN / FINER {
-                let light =
-                    self.lit(sky, add(from, scale(direction, reach - middle * apart)), direction, footprint);
-                let seen = libm::expf(-reach / LOST - PALER * blur);
-                sum = add(sum, scale(mix(radiance, light, seen), hidden));
+                let light = self.lit(sky, ray.at(reach - middle * apart), ray.direction, footprint);
+                let (light, seen) = self.pale(light, (sky, haze), ray, reach);
+                clouds.radiance = add(clouds.radiance, scale(light, hidden * seen));
+                clouds.open -= hidden * seen;
                 left -= hidden;
             }
             before = here;
@@ -216,7 +264,32 @@ impl Clouds {
                 slice += 1.0 + ((-NEAR - here).max(0.0) / (STEEPEST * spacing)).floor();
             }
         }
-        add(sum, scale(radiance, left))
+        clouds
+    }
+
+    /// The clouds along a ray that rippled water mirrors: heaps without puffs, that are as high as their noise is above that of
+    /// their sides.
+    pub(super) fn mirrored(&self, sky: &Sky, ray: &Ray) -> CloudLight {
+        let rise = ray.direction[2];
+        if rise < FLATTEST[0] || ray.from[2] >= self.height {
+            return CloudLight::NONE;
+        }
+        let reach = (self.height + BROADEST * THICK * self.exaggeration - ray.from[2]) / rise;
+        let [x, y, _] = ray.at(reach);
+        let heap = self.heap([x, y], BROADEST, MIRRORED_BLUR * reach);
+        let soft = (heap + MIRRORED_SOFT).max(0.0);
+        let within = heap.max(0.25 / MIRRORED_SOFT * soft * soft.min(2.0 * MIRRORED_SOFT));
+        let top = (within / NARROWER).sqrt().min(1.0);
+        let noise = top * (within - NARROWER * top * top / 3.0);
+        let hidden = 1.0 - libm::expf(-MIRRORED_DENSE * THICK * self.exaggeration / rise * noise);
+        let through = libm::expf(-MIRRORED_TAKEN * within);
+        let glow = GLOW * libm::powf(dot(ray.direction, sky.sun).max(0.0), 12.0);
+        let light = add(
+            scale(sky.sunlight, THROUGH + SUNNY * through + glow),
+            scale(self.skylight, 0.7 * std::f32::consts::FRAC_1_PI),
+        );
+        let shown = hidden * MIRRORED * libm::expf(-reach / LOST);
+        CloudLight { radiance: scale(light, shown), open: 1.0 - shown }
     }
 
     /// Share of the sunlight that comes through them to a point.
@@ -273,6 +346,10 @@ mod tests {
         let sky = Sky::new(towards(200.0, 40.0), 0.53);
         let clouds = Clouds::new(share, &sky, [500.0, 1.0]);
         (sky, clouds)
+    }
+
+    fn haze() -> Haze {
+        Haze::new(60_000.0, 1.0)
     }
 
     /// Share of places of which the sun is hidden by more than a half.
@@ -336,19 +413,54 @@ mod tests {
         let clouds = clouds.expect("some");
         for place in 0..200 {
             let point = [400.0 * place as f32, 90.0 * place as f32, 0.0];
-            let seen = clouds.before(&sky, [point, sky.sun, [0.0; 3]], 0.001);
+            let seen = clouds.before((&sky, haze()), &Ray { from: point, direction: sky.sun }, 0.001);
             let dark = clouds.through(&sky, point) < 0.3;
-            assert!(!dark || seen[1] > 0.0, "at {point:?} nothing hides the sun");
+            assert!(!dark || seen.open < 1.0, "at {point:?} nothing hides the sun");
         }
     }
 
     #[test]
-    fn below_the_horizon_and_above_the_clouds_there_are_none() {
+    fn clouds_are_seen_from_below_from_within_and_from_above() {
         let (sky, clouds) = clouds(1.0);
         let clouds = clouds.expect("some");
-        let radiance = [0.1, 0.2, 0.3];
-        for (from, direction) in [([0.0; 3], [1.0, 0.0, -0.1]), ([0.0, 0.0, 9000.0], [0.0, 0.6, 0.8])] {
-            assert_eq!(clouds.before(&sky, [from, unit(direction), radiance], 0.001), radiance);
+        let is_seen = |height: f32, direction: Vector| {
+            let ray = Ray { from: [300.0, 700.0, height], direction: unit(direction) };
+            clouds.before((&sky, haze()), &ray, 0.001) != CloudLight::NONE
+        };
+        let [up, down] = [[0.0, 0.6, 0.8], [0.0, 0.6, -0.8]];
+        let seen = [0.0, 2100.0, 9000.0].map(|height| [up, down].map(|direction| is_seen(height, direction)));
+        assert_eq!(seen, [[true, false], [true, true], [false, true]]);
+        assert!(!is_seen(0.0, [0.0, 1.0, 0.0]) && is_seen(2100.0, [0.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn what_is_seen_of_clouds_changes_evenly_as_an_eye_rises_through_them() {
+        let (sky, clouds) = clouds(0.6);
+        let clouds = clouds.expect("some");
+        for direction in [[0.0, 0.9, 0.1], [0.5, 0.5, -0.2], [-0.7, 0.2, 0.5]].map(unit) {
+            let at = |metres: usize| {
+                let ray = Ray { from: [0.0, 0.0, 1600.0 + 0.1 * metres as f32], direction };
+                clouds.before((&sky, haze()), &ray, 0.001).open
+            };
+            let most = (1..12_000).map(|metres| (at(metres) - at(metres - 1)).abs()).fold(0.0, f32::max);
+            assert!(most < 0.03, "a leap of {most} in a decimetre along {direction:?}");
         }
+    }
+
+    #[test]
+    fn water_mirrors_about_as_much_of_clouds_as_blurred_ones_would_be() {
+        let (sky, clouds) = clouds(0.5);
+        let clouds = clouds.expect("some");
+        let direction = unit([0.3, 0.2, 0.4]);
+        let hidden = |place: usize| {
+            let ray = Ray { from: [170.0 * place as f32, 90.0 * place as f32, 0.0], direction };
+            let near = clouds.before((&sky, haze()), &ray, 0.001);
+            [near.open, clouds.mirrored(&sky, &ray).open].map(|open| 1.0 - open)
+        };
+        let [seen, mirrored] = (0..800).map(hidden).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        assert!(
+            mirrored < 2.0 * MIRRORED * seen && mirrored > 0.5 * MIRRORED * seen,
+            "{mirrored} for {seen}"
+        );
     }
 }

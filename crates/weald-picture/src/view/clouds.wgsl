@@ -25,9 +25,13 @@ const CLOUDS_HELD = vec2<f32>(-0.02, 0.2);
 const CLOUDS_PUFF_SEED = 0x77u;
 const CLOUDS_FLATTER = vec2<f32>(-0.15, 0.25);
 const CLOUDS_DENSE = 0.12;
-const CLOUDS_SOFTER = 80.0;
 const CLOUDS_GLOW = 0.05;
-const CLOUDS_PALER = 30.0;
+const CLOUDS_FLATTEST = vec2<f32>(0.01, 0.001);
+const CLOUDS_MIRRORED_BLUR = 0.12;
+const CLOUDS_MIRRORED_SOFT = 0.25;
+const CLOUDS_MIRRORED_DENSE = 0.02;
+const CLOUDS_MIRRORED = 0.165;
+const CLOUDS_MIRRORED_TAKEN = 5.0;
 const CLOUDS_SUNWARD = vec2<f32>(70.0, 260.0);
 const CLOUDS_TAKEN = vec2<f32>(3.6, 3.2);
 const CLOUDS_BASE = vec2<f32>(2.2, 0.4);
@@ -88,13 +92,25 @@ fn within_cloud(point: vec3<f32>, footprint: f32) -> f32 {
     return heap + puffs * held * puff;
 }
 
-// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and such
-// an angle is seen as one.
-fn cloud_levels(direction: vec3<f32>, first: f32, blur: f32) -> vec2<f32> {
-    let length = CLOUDS_THICK * scene.scale.y / direction.z;
-    let most = CLOUDS_SLICES.x + CLOUDS_SLICES.y * max(1.0 - blur / CLOUDS_BLURRED, 0.0) * exp(-first / CLOUDS_LOST);
-    let count = clamp(length / CLOUDS_STEP, CLOUDS_SLICES.x, most);
-    return vec2<f32>(count, length / (count - 1.0));
+// Metres along a ray from which on it is in the layer, and for how many: none where it does not come there.
+fn cloud_stretch(start: vec3<f32>, rising: f32) -> vec2<f32> {
+    let bottom = scene.cloud_height.x - start.z;
+    let top = bottom + CLOUDS_THICK * scene.scale.y;
+    let flattest = select(CLOUDS_FLATTEST.y, CLOUDS_FLATTEST.x, bottom >= 0.0);
+    let is_inside = bottom < 0.0 && top > 0.0;
+    let rise = select(max(rising, CLOUDS_FLATTEST.y), min(rising, -CLOUDS_FLATTEST.y), rising < 0.0);
+    let ends = select(vec2<f32>(bottom, top), vec2<f32>(top, bottom), rise < 0.0) / rise;
+    let first = max(ends.x, 0.0);
+    let length = min(ends.y - first, CLOUDS_THICK * scene.scale.y / CLOUDS_FLATTEST.x);
+    return vec2<f32>(first, select(0.0, length, is_inside || abs(rising) >= flattest));
+}
+
+// How many levels a ray is looked at that is in the layer from so many metres on, for so many, and metres from one to the next,
+// where such an angle is seen as one.
+fn cloud_levels(stretch: vec2<f32>, blur: f32) -> vec2<f32> {
+    let most = CLOUDS_SLICES.x + CLOUDS_SLICES.y * max(1.0 - blur / CLOUDS_BLURRED, 0.0) * exp(-stretch.x / CLOUDS_LOST);
+    let count = clamp(stretch.y / CLOUDS_STEP, CLOUDS_SLICES.x, most);
+    return vec2<f32>(count, stretch.y / (count - 1.0));
 }
 
 // What so many metres of the way to the sun take of its light.
@@ -126,27 +142,28 @@ fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
         + scene.clouds.xyz * ((0.45 + 0.5 * level) / PI);
 }
 
-// The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
-fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur: f32) -> vec3<f32> {
-    let clouds = clouds_before(start, direction, radiance, blur);
-    return clouds.xyz + clouds.w * radiance;
+// The light of a point of a heap as it arrives at the start of a ray, and how much of it is seen there.
+fn pale_cloud(light: vec3<f32>, start: vec3<f32>, direction: vec3<f32>, reach: f32) -> vec4<f32> {
+    let above = clamp((start.z - scene.cloud_height.x) / (CLOUDS_THICK * scene.scale.y), 0.0, 1.0);
+    let veiled = mix(light, veil(light, start, direction, reach), above);
+    return vec4<f32>(veiled, exp((above - 1.0) * reach / CLOUDS_LOST));
 }
 
-// The light of the clouds before a sky of such a radiance, and the share of the sky that is seen.
-fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur: f32) -> vec4<f32> {
-    if !CLOUDS || direction.z < 0.01 || start.z >= scene.cloud_height.x {
-        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+// The light that clouds send along a ray, and the share of what is behind them that is seen; `blur` is the angle in radians that
+// is seen as one.
+fn clouds_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32> {
+    var clouds = vec4<f32>(0.0, 0.0, 0.0, 1.0);
+    let stretch = cloud_stretch(start, direction.z);
+    if !CLOUDS || stretch.y <= 0.0 {
+        return clouds;
     }
-    var sum = vec3<f32>(0.0);
     var left = 1.0;
-    let first = (scene.cloud_height.x - start.z) / direction.z;
-    let levels = cloud_levels(direction, first, blur);
-    let dense = CLOUDS_DENSE / (1.0 + CLOUDS_SOFTER * blur);
+    let levels = cloud_levels(stretch, blur);
     var slice = 0.0;
     var before = 0.0;
     var finer = 1.0;
     while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
-        let reach = first + slice * levels.y;
+        let reach = stretch.x + slice * levels.y;
         let apart = levels.y / finer;
         let footprint = max(apart, blur * reach);
         let here = within_cloud(start + direction * reach, footprint);
@@ -158,11 +175,11 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, bl
         }
         // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
         let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
-        let hidden = left * (1.0 - exp(-dense * apart * part.x));
+        let hidden = left * (1.0 - exp(-CLOUDS_DENSE * apart * part.x));
         if hidden > CLOUDS_UNSEEN / CLOUDS_FINER {
             let at = start + direction * (reach - part.y * apart);
-            let seen = exp(-reach / CLOUDS_LOST - CLOUDS_PALER * blur);
-            sum += hidden * mix(radiance, lit_cloud(at, direction, footprint), seen);
+            let light = pale_cloud(lit_cloud(at, direction, footprint), start, direction, reach);
+            clouds += hidden * light.w * vec4<f32>(light.xyz, -1.0);
             left -= hidden;
         }
         before = here;
@@ -174,7 +191,29 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, bl
             slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
         }
     }
-    return vec4<f32>(sum, left);
+    return clouds;
+}
+
+// The same along a ray that rippled water mirrors: heaps without puffs, that are as high as their noise is above that of their
+// sides.
+fn clouds_mirrored(start: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
+    let rise = direction.z;
+    if !CLOUDS || rise < CLOUDS_FLATTEST.x || start.z >= scene.cloud_height.x {
+        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+    }
+    let reach = (scene.cloud_height.x + CLOUDS_BROADEST * CLOUDS_THICK * scene.scale.y - start.z) / rise;
+    let at = start + direction * reach;
+    let heap = heap_of_cloud(at.xy, CLOUDS_BROADEST, CLOUDS_MIRRORED_BLUR * reach);
+    let soft = max(heap + CLOUDS_MIRRORED_SOFT, 0.0);
+    let within = max(heap, 0.25 / CLOUDS_MIRRORED_SOFT * soft * min(soft, 2.0 * CLOUDS_MIRRORED_SOFT));
+    let top = min(sqrt(within / CLOUDS_NARROWER), 1.0);
+    let noise = top * (within - CLOUDS_NARROWER * top * top / 3.0);
+    let hidden = 1.0 - exp(-CLOUDS_MIRRORED_DENSE * CLOUDS_THICK * scene.scale.y / rise * noise);
+    let through = exp(-CLOUDS_MIRRORED_TAKEN * within);
+    let glow = CLOUDS_GLOW * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
+    let light = scene.sunlight.xyz * (CLOUDS_THROUGH + CLOUDS_SUNNY * through + glow) + scene.clouds.xyz * (0.7 / PI);
+    let shown = hidden * CLOUDS_MIRRORED * exp(-reach / CLOUDS_LOST);
+    return vec4<f32>(light * shown, 1.0 - shown);
 }
 
 // Share of the sunlight that comes through them to a point.

@@ -169,9 +169,9 @@ impl LitScene {
         self.setting.terrain.base
     }
 
-    /// Whether clouds drift above it.
-    pub fn has_clouds(&self) -> bool {
-        self.clouds.is_some()
+    /// The height at which clouds begin that drift above it, as it is drawn; `None` where there are none.
+    pub fn cloud_base(&self) -> Option<f32> {
+        self.clouds.as_ref().map(|clouds| clouds.height)
     }
 
     /// Whether some of it has no data.

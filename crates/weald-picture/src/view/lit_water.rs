@@ -12,9 +12,6 @@ use crate::colour::mix;
 /// Metres over which ripples draw out what water mirrors, for each metre that it is away.
 const DRAWN_OUT: f32 = 0.02;
 
-/// Radians over which ripples that are too small to be seen blur what water mirrors.
-const MIRRORED_BLUR: f32 = 0.06;
-
 /// Pixels of the shortest waves that are seen one by one, near by and far away, and metres of water in a pixel where that changes:
 /// shorter ones would be grain, and such long ones far out at sea the grain of wood.
 const SEEN_WAVES: [f32; 2] = [4.0, 2.0];
@@ -91,7 +88,9 @@ impl RayMarcher {
         let start = 0.4 * terrain.cell();
         let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
             let upward = Ray { direction: water::upward(ray.direction), ..*ray };
-            return self.with_clouds(&upward, self.sky.radiance(upward.direction), MIRRORED_BLUR);
+            let sky = self.sky.radiance(upward.direction);
+            let clouds = self.clouds.as_ref().map(|clouds| clouds.mirrored(&self.sky, &upward));
+            return clouds.map_or(sky, |clouds| clouds.over(sky));
         };
         let point = ray.at(hit.ray_length);
         let footprint =

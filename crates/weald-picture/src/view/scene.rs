@@ -125,8 +125,22 @@ impl RayMarcher {
 
     /// The light that comes along a ray to the eye.
     fn light(&self, ray: &Ray) -> Vector {
+        let hit = self.setting.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty);
+        // No ground is as high as clouds are: what rises and meets some does not come to them.
+        let is_below = hit.is_some() && ray.direction[2] > 0.0;
+        let radiance = self.light_behind_clouds(ray, hit);
+        match &self.clouds {
+            Some(clouds) if !is_below => {
+                clouds.before((&self.sky, self.haze), ray, self.ray_angle).over(radiance)
+            }
+            _ => radiance,
+        }
+    }
+
+    /// The same without clouds, of a ray that met something or nothing.
+    fn light_behind_clouds(&self, ray: &Ray, hit: Option<Hit>) -> Vector {
         let around = self.setting.around.as_ref();
-        if let Some(hit) = self.setting.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
+        if let Some(hit) = hit {
             return match around {
                 Some(around) if around.is_beyond(hit.place) => self.met_beyond(around, ray, &hit),
                 _ => self.haze.veil(self.met(ray, &hit), ray, hit.ray_length, &self.sky),
@@ -135,16 +149,7 @@ impl RayMarcher {
         if ray.direction[2] < 0.0 {
             return around.map_or_else(|| self.plain(ray), |around| self.farthest(around, ray));
         }
-        let radiance = self.haze.before_sky(self.sky.radiance_with_sun(ray.direction), ray, &self.sky);
-        self.with_clouds(ray, radiance, self.ray_angle)
-    }
-
-    /// The sky along a ray, with the clouds before it, where such an angle in radians is seen as one.
-    pub(super) fn with_clouds(&self, ray: &Ray, radiance: Vector, blur: f32) -> Vector {
-        match &self.clouds {
-            Some(clouds) => clouds.before(&self.sky, [ray.from, ray.direction, radiance], blur),
-            None => radiance,
-        }
+        self.haze.before_sky(self.sky.radiance_with_sun(ray.direction), ray, &self.sky)
     }
 
     /// The light that starts at what a ray met.
