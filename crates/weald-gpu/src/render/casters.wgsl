@@ -12,22 +12,31 @@ fn cast_shadow(point: vec3<f32>) -> Caster {
 }
 
 @vertex
-fn ground_caster(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Caster {
-    return cast_shadow(ground_at_vertex(index, patch_of));
+fn ground_caster(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) slot: u32,
+) -> Caster {
+    return cast_shadow(ground_at_vertex(index, patch_of, slot));
 }
 
 @vertex
-fn beyond_caster(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Caster {
-    return cast_shadow(beyond_at_vertex(index, patch_of));
+fn beyond_caster(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) slot: u32,
+) -> Caster {
+    return cast_shadow(beyond_at_vertex(index, patch_of, slot));
 }
 
 @vertex
 fn side_caster(
     @builtin(vertex_index) index: u32,
     @location(0) patch_of: vec4<f32>,
-    @location(1) edge: u32,
+    @location(1) slot: u32,
+    @location(2) edge: u32,
 ) -> Caster {
-    return cast_shadow(side_at_vertex(index, patch_of, edge));
+    return cast_shadow(side_at_vertex(index, patch_of, slot, edge));
 }
 
 @vertex

@@ -34,6 +34,7 @@ impl Renderer {
         }
         self.renew_bounds()?;
         self.shadows.forget();
+        self.terrain.patch_heights.forget();
         let Some(follower) = &mut self.follower else { return Ok(()) };
         let context = &self.gpu.context;
         let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());

@@ -4,6 +4,7 @@ use wgpu::{BindGroupLayout, CompareFunction, DepthBiasState, DepthStencilState, 
 
 use super::frame::Frame;
 use super::maps::Maps;
+use super::patch_heights::HeightsLayouts;
 use super::targets::DEPTH;
 
 /// Group of the scene's textures and uniforms.
@@ -16,6 +17,8 @@ pub(super) struct Layouts<'a> {
     pub(super) maps: &'a Maps,
     /// Of the number of a cascade of the sun's depths.
     pub(super) cascade: &'a BindGroupLayout,
+    /// Of the heights of patches.
+    pub(super) heights: &'a HeightsLayouts,
 }
 
 /// What depth is compared with and whether it is kept.

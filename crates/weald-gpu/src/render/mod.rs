@@ -30,6 +30,7 @@ mod measure;
 mod onto;
 mod options;
 mod passes;
+mod patch_heights;
 mod picking;
 mod picture;
 mod plants;

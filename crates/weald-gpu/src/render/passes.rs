@@ -14,6 +14,7 @@ use super::grass::Grass;
 use super::ground::{self, Ground, InSight};
 use super::ground_pipelines::{Parts, SceneParts};
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
+use super::patch_heights;
 use super::picking;
 use super::plants::Plants;
 use super::targets::{LIGHT, Targets};
@@ -23,13 +24,14 @@ use crate::gpu::Gpu;
 use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 11] = [
+const SHADERS: [&str; 12] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
     include_str!("water.wgsl"),
     include_str!("thinning.wgsl"),
     include_str!("canopy.wgsl"),
+    include_str!("patch_heights.wgsl"),
     include_str!("terrain.wgsl"),
     include_str!("ground.wgsl"),
     include_str!("casters.wgsl"),
@@ -37,10 +39,11 @@ const SHADERS: [&str; 11] = [
     include_str!("pick.wgsl"),
 ];
 
-/// A patch, and for sides its edge.
-const ATTRIBUTES: [VertexAttribute; 2] = [
+/// A patch, the slot of its heights, and for sides its edge.
+const ATTRIBUTES: [VertexAttribute; 3] = [
     VertexAttribute { format: VertexFormat::Float32x4, offset: 0, shader_location: 0 },
-    VertexAttribute { format: VertexFormat::Uint32, offset: PATCH_BYTES, shader_location: 1 },
+    VertexAttribute { format: VertexFormat::Uint32, offset: 16, shader_location: 1 },
+    VertexAttribute { format: VertexFormat::Uint32, offset: PATCH_BYTES, shader_location: 2 },
 ];
 
 /// The ends of a wall, and its normals there.
@@ -60,6 +63,8 @@ pub(super) struct Passes {
     pub(super) casters: Casters,
     module: ShaderModule,
     picks: (PipelineLayout, BindGroupLayout),
+    /// What works out the heights of patches.
+    pub(super) heights: ComputePipeline,
     samples: u32,
     /// Whether grass stands on the ground.
     pub(super) has_lawn: bool,
@@ -108,7 +113,9 @@ pub(super) struct Drawing<'a> {
 struct Maker<'a> {
     context: &'a Context,
     module: ShaderModule,
+    /// Of what is drawn by heights of patches, and of what works those out.
     layout: PipelineLayout,
+    filling: PipelineLayout,
     with_depths: [PipelineLayout; 2],
     casters: PipelineLayout,
     picks: (PipelineLayout, BindGroupLayout),
@@ -135,7 +142,8 @@ impl Passes {
         let text = SHADERS.iter().fold(text, |text, shader| text + "\n" + shader);
         gpu.context.attempt_to_compile("making the pipelines of a picture", || {
             let device = &gpu.context.device;
-            let Layouts { frame, maps, cascade } = layouts;
+            let Layouts { frame, maps, cascade, heights } = layouts;
+            let drawing = Some(&heights.drawing);
             let whole = |groups: &[Option<&BindGroupLayout>]| {
                 device.create_pipeline_layout(&PipelineLayoutDescriptor {
                     label: Some("picture"),
@@ -148,11 +156,12 @@ impl Passes {
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
-                layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
+                layout: whole(&[Some(&frame.layout), Some(&maps.layout), None, drawing]),
+                filling: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(&heights.filling)]),
                 with_depths: depths
                     .each_ref()
                     .map(|depths| whole(&[Some(&frame.layout), Some(&maps.layout), Some(depths)])),
-                casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
+                casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade), drawing]),
                 picks: (whole(&[Some(&frame.layout), Some(&maps.layout), Some(&picks)]), picks),
                 samples,
                 has: SceneParts::of(scene),
@@ -168,7 +177,7 @@ impl Passes {
             step_mode: VertexStepMode::Instance,
             attributes,
         };
-        let patches = [Some(instances(PATCH_BYTES, &ATTRIBUTES[..1]))];
+        let patches = [Some(instances(PATCH_BYTES, &ATTRIBUTES[..2]))];
         let sides = [Some(instances(SIDE_BYTES, &ATTRIBUTES[..]))];
         let rims = [Some(instances(RIM_BYTES, &RIM_ATTRIBUTES[..]))];
         let solid = |name, buffers| {
@@ -199,6 +208,11 @@ impl Passes {
                 rims: caster("rim", &rims),
             },
             module: maker.module.clone(),
+            heights: patch_heights::pipeline(
+                maker.context,
+                (&maker.module, &maker.filling),
+                maker.has.horizon,
+            ),
             picks: maker.picks.clone(),
             samples: maker.samples,
             has_lawn: maker.has_lawn,

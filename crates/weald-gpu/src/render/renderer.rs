@@ -119,7 +119,8 @@ impl Renderer {
         let shadows = Shadows::new(gpu)?;
         let canopy = canopy::none(gpu)?;
         let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
-        let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
+        let heights = &terrain.patch_heights.layouts;
+        let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout, heights };
         let passes = Passes::new(gpu, scene, layouts, (options.samples, has_lawn))?;
         let film = ToneMapping::new(gpu, scene, &maps)?;
         let own = Arc::new(Onto::new(gpu, (&passes, &film), options, Arc::default())?);
@@ -176,7 +177,9 @@ impl Renderer {
             self.frame.plant(&self.gpu, &self.shadows.canvas, &canopy)?;
             self.canopy = canopy;
         }
-        let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade: &self.shadows.layout };
+        let heights = &self.terrain.patch_heights.layouts;
+        let cascade = &self.shadows.layout;
+        let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade, heights };
         let (has_lawn, samples) = (has_lawn(landscape), self.own.options.samples);
         if has_lawn != self.passes.has_lawn {
             self.passes = Passes::new(&self.gpu, scene, layouts, (samples, has_lawn))?;
@@ -203,6 +206,9 @@ impl Renderer {
 
     /// Sends what is on its way; when all is there, what stands on the ground stands on it anew.
     fn send_coming(&mut self, waits: bool, encoder: &mut CommandEncoder) {
+        if self.coming.is_some() {
+            self.terrain.patch_heights.forget();
+        }
         let is_there = self.coming.as_mut().is_some_and(|coming| coming.send(&self.gpu, &self.maps, waits));
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
         self.shadows.forget();
@@ -269,6 +275,9 @@ impl Renderer {
         let Shot { onto, target, .. } = *shot;
         self.send_coming(shot.waits, encoder);
         let (wanted, in_sight) = self.aim((onto, shot.waits), shot.camera, encoder)?;
+        let into = &mut Upload { gpu: &self.gpu, encoder };
+        let groups = [&self.frame.caster_group, &self.maps.group];
+        self.terrain.patch_heights.fill(into, &self.passes.heights, groups)?;
         let timer = self.timer.as_ref();
         let drawing = Drawing {
             terrain: &self.terrain,

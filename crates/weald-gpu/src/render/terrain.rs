@@ -8,6 +8,7 @@ use super::cascades::{CASCADES, Cascades};
 use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
+use super::patch_heights::{HEIGHTS_GROUP, PatchHeights};
 use super::spacing::{Ranges, errors};
 use super::upload::Upload;
 use crate::gpu::Gpu;
@@ -36,24 +37,33 @@ pub(super) struct Terrain {
     /// What the camera sees, and each cascade of the sun.
     seen: Vec<Seen>,
     rims: Instances<[f32; 8]>,
+    pub(super) patch_heights: PatchHeights,
     /// Whether ground goes on beyond the border: there are no sides then.
     has_horizon: bool,
 }
 
-/// A patch with the edge of it that has a wall: 0 to 3 for north, east, south, west.
+/// A patch with the slot of its heights.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Slotted {
+    patch: Patch,
+    slot: u32,
+}
+
+/// The same with the edge of it that has a wall: 0 to 3 for north, east, south, west.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Side {
-    patch: Patch,
+    patch: Slotted,
     edge: u32,
 }
 
 /// The patches and sides in one view.
 #[derive(Debug)]
 struct Seen {
-    patches: Instances<Patch>,
+    patches: Instances<Slotted>,
     /// Those that lie in part beyond the border, where ground goes on.
-    beyond: Instances<Patch>,
+    beyond: Instances<Slotted>,
     sides: Instances<Side>,
 }
 
@@ -70,11 +80,11 @@ impl Seen {
         &mut self,
         into: &mut Upload<'_>,
         lattice: &Lattice,
-        patches: Vec<Patch>,
+        patches: Vec<Slotted>,
         sides: &[Side],
     ) -> Result<(), Error> {
         let (beyond, within): (Vec<_>, Vec<_>) =
-            patches.into_iter().partition(|patch| lattice.is_beyond(patch));
+            patches.into_iter().partition(|slotted| lattice.is_beyond(&slotted.patch));
         self.patches.write(into, &within)?;
         self.beyond.write(into, &beyond)?;
         self.sides.write(into, sides)
@@ -82,7 +92,7 @@ impl Seen {
 }
 
 /// Bytes between two instances.
-pub(super) const PATCH_BYTES: u64 = size_of::<Patch>() as u64;
+pub(super) const PATCH_BYTES: u64 = size_of::<Slotted>() as u64;
 pub(super) const RIM_BYTES: u64 = size_of::<[f32; 8]>() as u64;
 pub(super) const SIDE_BYTES: u64 = size_of::<Side>() as u64;
 
@@ -101,6 +111,7 @@ impl Terrain {
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
             seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
             rims: rims(gpu, scene)?,
+            patch_heights: PatchHeights::new(gpu)?,
             has_horizon: beyond.is_some(),
             lattice,
         })
@@ -116,6 +127,7 @@ impl Terrain {
     ) -> Result<Drawn, Error> {
         let stand = self.viewpoint(detail_from);
         let ranges = self.ranges(camera, size);
+        self.patch_heights.begin();
         self.select(into, (0, &Frustum::of(camera)), stand, &ranges)?;
         Ok(Drawn {
             stand,
@@ -177,8 +189,7 @@ impl Terrain {
     ) -> Result<(), Error> {
         let patches =
             if self.is_empty { Vec::new() } else { self.lattice.select(stand, ranges, &self.heights, view) };
-        let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-        self.seen[number].write(into, &self.lattice, patches, &sides)
+        self.take_patches(into, number, patches)
     }
 
     /// Selects all ground for the sun's last cascade, whatever a camera sees: so finely that texels of so many metres do
@@ -187,8 +198,21 @@ impl Terrain {
         let is_fine = |&level: &usize| self.errors[level] <= 0.5 * texel;
         let level = (0..self.lattice.levels).rev().find(is_fine).unwrap_or(0);
         let patches = if self.is_empty { Vec::new() } else { self.lattice.whole(level) };
+        self.take_patches(into, CASCADES, patches)
+    }
+
+    /// Has a view draw such patches, with walls where the landscape ends.
+    fn take_patches(
+        &mut self,
+        into: &mut Upload<'_>,
+        number: usize,
+        patches: Vec<Patch>,
+    ) -> Result<(), Error> {
+        let heights = &mut self.patch_heights;
+        let slotted = |patch: Patch| Slotted { patch, slot: heights.slot(&patch) };
+        let patches: Vec<_> = patches.into_iter().map(slotted).collect();
         let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-        self.seen[CASCADES].write(into, &self.lattice, patches, &sides)
+        self.seen[number].write(into, &self.lattice, patches, &sides)
     }
 
     /// Whether ground goes on beyond the border.
@@ -214,6 +238,7 @@ impl Terrain {
     /// Takes another ground of the same size: its heights, and the errors of its levels.
     pub(super) fn take(&mut self, heights: Heights, errors: Vec<f32>) {
         (self.heights, self.errors) = (heights, errors);
+        self.patch_heights.forget();
     }
 
     /// The box around all of it.
@@ -225,10 +250,11 @@ impl Terrain {
     }
 
     /// The edges of a patch at which the landscape ends.
-    fn sides_of(&self, patch: Patch) -> impl Iterator<Item = Side> {
-        let side = QUADS as f32 * patch.spacing;
-        let [west, north] = patch.corner.map(|at| at == 0.5);
-        let [east, south] = [0, 1].map(|axis| patch.corner[axis] + side >= self.lattice.cells[axis] + 0.5);
+    fn sides_of(&self, patch: Slotted) -> impl Iterator<Item = Side> {
+        let Patch { corner, spacing, .. } = patch.patch;
+        let side = QUADS as f32 * spacing;
+        let [west, north] = corner.map(|at| at == 0.5);
+        let [east, south] = [0, 1].map(|axis| corner[axis] + side >= self.lattice.cells[axis] + 0.5);
         let edges = [north, east, south, west].into_iter().zip(0..);
         edges.filter(|(is_end, _)| *is_end && !self.has_horizon).map(move |(_, edge)| Side { patch, edge })
     }
@@ -248,11 +274,13 @@ impl Terrain {
 
     /// Draws the ground that the camera sees, 0, or a cascade, from 1 on, by the pipeline that is set.
     pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>, view: usize) {
+        pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
         self.grid.draw(pass, &self.seen[view].patches);
     }
 
     /// Draws the patches of the same that lie in part beyond the border by the pipeline that is set.
     pub(super) fn draw_beyond(&self, pass: &mut RenderPass<'_>, view: usize) {
+        pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
         self.grid.draw(pass, &self.seen[view].beyond);
     }
 
@@ -266,6 +294,7 @@ impl Terrain {
 
     /// Draws the sides of such a view by the pipeline that is set.
     pub(super) fn draw_sides(&self, pass: &mut RenderPass<'_>, view: usize) {
+        pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
         self.wall.draw(pass, &self.seen[view].sides);
     }
 }

@@ -10,63 +10,80 @@ struct Ground {
     @location(0) point: vec3<f32>,
 }
 
-// The place of a vertex of a patch: its corner, spacing and level.
-fn vertex_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
-    return min(sliding_place(patch_of, at), scene.grid.xy + 0.5);
+// Heights of the vertices of all patches that are drawn, and half of their ways onto their even neighbours.
+@group(3) @binding(0) var<storage, read> patch_heights: array<vec2<f32>>;
+
+fn heights_of_vertex(slot: u32, at: vec2<f32>) -> vec2<f32> {
+    return patch_heights[slot * PATCH_VERTICES + u32(at.y) * (QUADS + 1u) + u32(at.x)];
 }
 
-fn sliding_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
+// A vertex of a patch, which is its corner, spacing and level, drawn back to what is farthest; odd ones slide onto their even
+// neighbours before the next level begins.
+fn sliding_point(patch_of: vec4<f32>, slot: u32, at: vec2<f32>, farthest: vec2<f32>) -> vec3<f32> {
     let start = patch_of.xy + at * patch_of.z;
     let slide = frame.slides[u32(patch_of.w)];
     let away = (start - frame.stand.xy) * scene.grid.zw;
     let distance = length(vec3<f32>(away, frame.stand.z));
     let share = clamp((distance - slide.x) / (slide.y - slide.x), 0.0, 1.0);
     let odd = fract(at * 0.5) * 2.0;
-    return start - odd * (share * patch_of.z);
+    let onto = start - odd * patch_of.z;
+    let place = mix(min(start, farthest), min(onto, farthest), share);
+    let heights = heights_of_vertex(slot, at);
+    let neighbour = heights_of_vertex(slot, at - odd).x;
+    // The parabola through the height where it begins, half-way and at its end.
+    let left = 1.0 - share;
+    let bent = 4.0 * share * left * heights.y + (left - share) * (left * heights.x - share * neighbour);
+    return point_of(place, bent);
 }
 
-fn ground_point(place: vec2<f32>) -> vec3<f32> {
-    return point_of(place, spline_at(top, place));
+fn vertex_of_patch(index: u32) -> vec2<f32> {
+    return vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
 }
 
-fn ground_at_vertex(index: u32, patch_of: vec4<f32>) -> vec3<f32> {
-    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
-    return ground_point(vertex_place(patch_of, at));
+// A point of a patch that lies within the border, or is drawn back onto it.
+fn point_within(patch_of: vec4<f32>, slot: u32, at: vec2<f32>) -> vec3<f32> {
+    return sliding_point(patch_of, slot, at, scene.grid.xy + 0.5);
+}
+
+fn ground_at_vertex(index: u32, patch_of: vec4<f32>, slot: u32) -> vec3<f32> {
+    return point_within(patch_of, slot, vertex_of_patch(index));
 }
 
 @vertex
-fn ground_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
-    let point = ground_at_vertex(index, patch_of);
+fn ground_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) slot: u32,
+) -> Ground {
+    let point = ground_at_vertex(index, patch_of, slot);
     return Ground(projected(point), point);
 }
 
 // The same of a patch that lies in part beyond the border, where ground goes on.
-fn beyond_at_vertex(index: u32, patch_of: vec4<f32>) -> vec3<f32> {
-    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
-    let place = sliding_place(patch_of, at);
-    if !is_beyond(place) {
-        return ground_point(place);
-    }
-    let beyond = ground_beyond(place);
-    return point_of(place, max(beyond.surface.x, level_beyond(place, beyond)));
+fn beyond_at_vertex(index: u32, patch_of: vec4<f32>, slot: u32) -> vec3<f32> {
+    return sliding_point(patch_of, slot, vertex_of_patch(index), vec2<f32>(FAR_AWAY));
 }
 
 @vertex
-fn beyond_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
-    let point = beyond_at_vertex(index, patch_of);
+fn beyond_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) slot: u32,
+) -> Ground {
+    let point = beyond_at_vertex(index, patch_of, slot);
     return Ground(projected(point), point);
 }
 
 // A wall below one edge of a patch: x along it, y 0 on the ground and 1 on the base. `edge` is 0 to 3 for north, east,
 // south, west.
-fn side_at_vertex(index: u32, patch_of: vec4<f32>, edge: u32) -> vec3<f32> {
+fn side_at_vertex(index: u32, patch_of: vec4<f32>, slot: u32, edge: u32) -> vec3<f32> {
     let along = f32(index % (QUADS + 1u));
     // The end of the landscape may lie within a patch; vertices beyond it are drawn back onto it.
     let far = f32(QUADS);
     let ats = array<vec2<f32>, 4>(
         vec2<f32>(along, 0.0), vec2<f32>(far, along), vec2<f32>(along, far), vec2<f32>(0.0, along),
     );
-    let point = ground_point(vertex_place(patch_of, ats[edge]));
+    let point = point_within(patch_of, slot, ats[edge]);
     return select(point, vec3<f32>(point.xy, scene.plain.w), index > QUADS);
 }
 
@@ -74,9 +91,10 @@ fn side_at_vertex(index: u32, patch_of: vec4<f32>, edge: u32) -> vec3<f32> {
 fn side_vertex(
     @builtin(vertex_index) index: u32,
     @location(0) patch_of: vec4<f32>,
-    @location(1) edge: u32,
+    @location(1) slot: u32,
+    @location(2) edge: u32,
 ) -> Ground {
-    let point = side_at_vertex(index, patch_of, edge);
+    let point = side_at_vertex(index, patch_of, slot, edge);
     return Ground(projected(point), point);
 }
 
@@ -113,7 +131,8 @@ fn is_rim_end(index: u32) -> bool {
 }
 
 fn rim_at_vertex(index: u32, ends: vec4<f32>) -> vec3<f32> {
-    let point = ground_point(select(ends.xy, ends.zw, is_rim_end(index)));
+    let place = select(ends.xy, ends.zw, is_rim_end(index));
+    let point = point_of(place, spline_at(top, place));
     let is_below = index == 2u || index == 4u || index == 5u;
     return select(point, vec3<f32>(point.xy, scene.plain.w), is_below);
 }

@@ -50,7 +50,10 @@ fn clouds_and_their_shadows_are_where_the_ray_marched_view_has_them() {
         up: [0.0, -0.6, 0.8],
         ..above(&clear, [1600.0, 3100.0], 150.0, 8.0, 0.0)
     };
-    for camera in [upward, clear.camera()] {
+    // From below, from afar, from among them and from above.
+    let among = above(&clear, [1600.0, 3100.0], 2200.0, 8.0, 0.0);
+    let over = above(&clear, [1600.0, 3100.0], 4500.0, 35.0, 40.0);
+    for camera in [upward, clear.camera(), among, over] {
         let view = View { clouds: 0.6, ..open() };
         let (mean, worst) = distances(&gpu, &view, &landscape, Some(camera));
         assert!(mean < 0.015 && worst < 0.05, "mean {mean}, one in twenty {worst}");
