@@ -44,6 +44,7 @@ mod side;
 mod site;
 mod sky;
 mod skylight;
+mod slope_grain;
 mod snow;
 mod solid_grain;
 mod surface;

@@ -27,16 +27,16 @@ fn meets_sky(texel: vec2<f32>) -> bool {
     return farthest <= 0.0;
 }
 
-// Whether the eye is above the base of clouds, which are then before all else.
-fn is_over_clouds() -> bool {
-    return frame.eye.z > scene.cloud_height.x;
+// Whether the eye is above the base of clouds, which are then before all else; at any place of the picture.
+fn is_over_clouds(position: vec2<f32>) -> bool {
+    return is_above(frame.eye.z, scene.cloud_height.x, position.x);
 }
 
 @fragment
 fn clouds_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     var clouds = vec4<f32>(0.0, 0.0, 0.0, 1.0);
     // A loop of one turn or none: software would look for clouds in a condition.
-    for (var look = 0u; look < select(0u, 1u, is_over_clouds() || meets_sky(position.xy)); look++) {
+    for (var look = 0u; look < select(0u, 1u, is_over_clouds(position.xy) | meets_sky(position.xy)); look++) {
         clouds = clouds_before(frame.eye.xyz, backdrop_direction(2.0 * position.xy), frame.eye.w);
     }
     return vec4<f32>(limited(clouds.xyz), clouds.w);
@@ -53,7 +53,7 @@ fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32
     var radiance = clear_sky(backdrop_direction(position.xy));
     if CLOUDS {
         let clouds = clouds_at(position.xy);
-        radiance = select(clouds.xyz + clouds.w * radiance, radiance, is_over_clouds());
+        radiance = select(clouds.xyz + clouds.w * radiance, radiance, is_over_clouds(position.xy));
     }
     return vec4<f32>(limited(radiance), 1.0);
 }

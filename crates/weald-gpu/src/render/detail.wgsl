@@ -10,6 +10,10 @@ const DETAIL_LENGTH = 0.9;
 // Share that is left, at one's feet, of the bumps that are seen from afar.
 const AFAR = 0.14;
 
+// How far patches of stones follow the tufts between them, and how soft their edges are.
+const PATCHY_STONES = 4.0;
+const STONES_EDGE = 0.12;
+
 // Stones: how high one stands at a place that is counted in stones, which way it leans, and a tone for each.
 struct Stone {
     height: f32,
@@ -56,9 +60,9 @@ struct Detail {
     bump: vec2<f32>,
 }
 
-fn turf_detail(point: vec2<f32>, footprint: f32) -> Detail {
-    let tufts = octaves_at(Octaves(DETAIL_LENGTH, 5u, 0.72, 0x31u), point, footprint);
-    let dry = octaves_at(Octaves(3.1 * DETAIL_LENGTH, 3u, 0.6, 0x32u), point, footprint);
+fn turf_detail(point: vec3<f32>, rise: vec2<f32>, footprint: f32) -> Detail {
+    let tufts = octaves_on_slope(Octaves(DETAIL_LENGTH, 5u, 0.72, 0x31u), point, rise, footprint);
+    let dry = octaves_on_slope(Octaves(3.1 * DETAIL_LENGTH, 3u, 0.6, 0x32u), point, rise, footprint);
     return Detail(0.75 * tufts.value, 0.9 * dry.value + 0.4 * tufts.value, 0.06 * tufts.slope);
 }
 
@@ -120,24 +124,42 @@ fn blended(a: Detail, b: Detail, share: f32) -> Detail {
     return Detail(mix(a.tone, b.tone, share), mix(a.hue, b.hue, share), mix(a.bump, b.bump, share));
 }
 
+// The share of stones where they lie in patches: as many as there are from afar, but each place is of stones or has none.
+fn patch_of_stones(share: f32, tone: f32) -> f32 {
+    return ramp(share + PATCHY_STONES * tone * share * (1.0 - share), 0.5 - STONES_EDGE, 0.5 + STONES_EDGE);
+}
+
+// The colour of a skin of which a share is stones, where such a share of a place is.
+fn parted_colour(skin: SurfaceSample, share: f32) -> vec3<f32> {
+    let stones = skin.kinds.y;
+    let between = clamp((skin.albedo - stones * scene.scree.xyz) / max(1.0 - stones, 0.25), vec3<f32>(0.01), vec3<f32>(0.9));
+    let alone = clamp(1.0 - skin.kinds.x - skin.kinds.z - skin.kinds.w, 0.0, 1.0);
+    return mix(skin.albedo, mix(between, scene.scree.xyz, share), alone);
+}
+
 // The skin of a point with what is seen of it from close by.
 fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footprint: f32) -> SurfaceSample {
     if footprint >= DETAIL_FROM {
         return skin;
     }
-    var detail = turf_detail(point.xy, footprint);
+    let rise = -normal.xy / max(normal.z, 0.05);
+    var detail = turf_detail(point, rise, footprint);
+    var colour = skin.albedo;
     if skin.kinds.y > 0.0 {
-        detail = blended(detail, hard_detail(point, normal, footprint, 1.0), skin.kinds.y);
+        let share = patch_of_stones(skin.kinds.y, detail.tone);
+        colour = parted_colour(skin, share);
+        detail = blended(detail, hard_detail(point, normal, footprint, 1.0), share);
     }
     if skin.kinds.z > 0.0 {
         detail = blended(detail, hard_detail(point, normal, footprint, 0.0), skin.kinds.z);
     }
-    let snow = octaves_at(Octaves(0.7, 5u, 0.5, 0x39u), point.xy, footprint);
+    let snow = octaves_on_slope(Octaves(0.7, 5u, 0.5, 0x39u), point, rise, footprint);
     detail = blended(detail, Detail(0.12 * snow.value, 0.0, 0.05 * snow.slope), skin.kinds.w);
     let shown = clamp((DETAIL_FROM - footprint) / (0.5 * DETAIL_FROM), 0.0, 1.0);
     let warm = vec3<f32>(1.0 + 0.28 * detail.hue, 1.0 + 0.10 * detail.hue, 1.0 - 0.22 * detail.hue);
     var near = skin;
-    near.albedo = clamp(skin.albedo * mix(vec3<f32>(1.0), max(1.0 + detail.tone, 0.25) * warm, shown), vec3<f32>(0.01), vec3<f32>(0.9));
+    let toned = mix(skin.albedo, colour * max(1.0 + detail.tone, 0.25) * warm, shown);
+    near.albedo = clamp(toned, vec3<f32>(0.01), vec3<f32>(0.9));
     // What looks like a bump from afar is tufts and stones from close by, and would stand in black shade.
     near.bump = mix(1.0, AFAR, shown) * skin.bump + shown * detail.bump / sqrt(1.0 + dot(detail.bump, detail.bump));
     return near;

@@ -121,9 +121,8 @@ fn kinds_of(light: &Light, is_behind: bool) -> [Range<u32>; 2] {
 pub(super) struct InSight {
     /// Whether some ground is close by.
     is_near: bool,
-    sky: bool,
-    /// What lies below the horizon behind all ground.
-    plain: bool,
+    /// The sky, and what lies below the horizon behind all ground.
+    backdrop: [bool; 2],
     /// Whether the camera is above the base of clouds.
     is_over_clouds: bool,
 }
@@ -136,8 +135,7 @@ impl InSight {
         // A hundredth for what a device rounds otherwise.
         Self {
             is_near: above * pixel_angle < 1.01 * DETAIL_FROM,
-            sky: forward[2] + aside > -0.01,
-            plain: forward[2] - aside < 0.01,
+            backdrop: [forward[2] + aside > -0.01, forward[2] - aside < 0.01],
             is_over_clouds: cloud_base.is_some_and(|base| camera.eye[2] > base),
         }
     }
@@ -206,7 +204,7 @@ impl Ground {
 
     /// Whether a picture has clouds.
     pub(super) fn has_clouds(&self, in_sight: InSight) -> bool {
-        self.clouds.is_some() && (in_sight.sky || in_sight.is_over_clouds)
+        self.clouds.is_some() && (in_sight.backdrop[0] || in_sight.is_over_clouds)
     }
 
     /// Draws the kind of each pixel.
@@ -236,7 +234,7 @@ impl Ground {
         depths: &[BindGroup; 2],
         in_sight: InSight,
     ) {
-        for (which, is_seen) in [in_sight.sky, in_sight.plain].into_iter().enumerate() {
+        for (which, is_seen) in in_sight.backdrop.into_iter().enumerate() {
             if is_seen {
                 pass.set_bind_group(DEPTHS_GROUP, &depths[1 - which], &[]);
                 pass.set_pipeline(&self.backdrop[which]);
@@ -264,9 +262,10 @@ mod tests {
             let camera = Camera::looking([0.0; 3], unit_of([0, 1, 2].map(random)), [0.6, 0.4]);
             let in_sight = InSight::of(&camera, 50.0, 1e-3, None);
             let rises = camera.ray([random(3), random(4)]).direction[2];
-            assert!(in_sight.is_near && (in_sight.sky || rises < 0.0) && (in_sight.plain || rises >= 0.0));
-            with_sky += u32::from(in_sight.sky);
-            with_plain += u32::from(in_sight.plain);
+            let [sky, plain] = in_sight.backdrop;
+            assert!(in_sight.is_near && (sky || rises < 0.0) && (plain || rises >= 0.0));
+            with_sky += u32::from(sky);
+            with_plain += u32::from(plain);
         }
         assert!((1500..3900).contains(&with_sky) && (1500..3900).contains(&with_plain));
         let camera = Camera::looking([0.0; 3], [1.0, 0.0, 0.0], [0.6, 0.4]);

@@ -37,7 +37,7 @@ const VERTEX_BYTES: u64 = 8;
 const ROOM: usize = 2048;
 
 /// Pictures after which a patch that none of them has may lose its slot: several views are drawn in turns.
-const KEPT: u32 = 4;
+const DRAWN_LATELY: u32 = 4;
 
 /// Vertices of a workgroup, and workgroups of a row of them, as the shader has it.
 const GROUP: u64 = 64;
@@ -99,7 +99,7 @@ impl Slots {
     fn make_room(&mut self) {
         let (picture, free) = (self.picture, &mut self.free);
         self.taken.retain(|_, slot| {
-            let is_kept = picture.wrapping_sub(slot.used) < KEPT;
+            let is_kept = picture.wrapping_sub(slot.used) < DRAWN_LATELY;
             if !is_kept {
                 free.push(slot.number);
             }

@@ -25,8 +25,8 @@ fn height_at_place(place: vec2<f32>) -> f32 {
 fn heights_at_vertex(asked_patch: AskedPatch, vertex: u32) -> vec2<f32> {
     let at = vec2<f32>(f32(vertex % (QUADS + 1u)), f32(vertex / (QUADS + 1u)));
     let odd = fract(at * 0.5) * 2.0;
-    let half_way = asked_patch.corner + (at - 0.5 * odd) * asked_patch.spacing;
-    return vec2<f32>(height_at_place(asked_patch.corner + at * asked_patch.spacing), height_at_place(half_way));
+    let midway = asked_patch.corner + (at - 0.5 * odd) * asked_patch.spacing;
+    return vec2<f32>(height_at_place(asked_patch.corner + at * asked_patch.spacing), height_at_place(midway));
 }
 
 @compute @workgroup_size(64)

@@ -81,7 +81,7 @@ const FLATTEST: [f32; 2] = [0.01, 0.001];
 const MIRRORED_BLUR: f32 = 0.12;
 const MIRRORED_SOFT: f32 = 0.25;
 const MIRRORED_DENSE: f32 = 0.02;
-const MIRRORED: f32 = 0.165;
+const MIRRORED_SHARE: f32 = 0.165;
 const MIRRORED_TAKEN: f32 = 5.0;
 
 /// Metres towards the sun at which is looked how much of the heap lies there, and how much of the light that takes.
@@ -195,14 +195,6 @@ impl Clouds {
         (length > 0.0).then_some([first, length])
     }
 
-    /// How many levels a ray is looked at that is in the layer from so many metres on, for so many, and metres from one to the next,
-    /// where such an angle is seen as one. It is no whole number, which would show as lines where it changes.
-    fn levels(&self, [first, length]: [f32; 2], blur: f32) -> [f32; 2] {
-        let most = SLICES[0] + SLICES[1] * (1.0 - blur / BLURRED).max(0.0) * libm::expf(-first / LOST);
-        let count = (length / STEP).clamp(SLICES[0], most);
-        [count, length / (count - 1.0)]
-    }
-
     /// The light that a point of a heap sends along a direction.
     fn lit(&self, sky: &Sky, at: Vector, direction: Vector, footprint: f32) -> Vector {
         let level = ((at[2] - self.height) / (THICK * self.exaggeration)).clamp(0.0, 1.0);
@@ -232,7 +224,7 @@ impl Clouds {
         let Some([first, length]) = self.stretch(ray) else {
             return CloudLight::NONE;
         };
-        let [count, spacing] = self.levels([first, length], blur);
+        let [count, spacing] = levels([first, length], blur);
         let mut clouds = CloudLight::NONE;
         let (mut left, mut slice, mut before, mut finer) = (1.0, 0.0, 0.0, 1.0);
         while slice <= count - 1.0 && left > UNSEEN {
@@ -288,7 +280,7 @@ impl Clouds {
             scale(sky.sunlight, THROUGH + SUNNY * through + glow),
             scale(self.skylight, 0.7 * std::f32::consts::FRAC_1_PI),
         );
-        let shown = hidden * MIRRORED * libm::expf(-reach / LOST);
+        let shown = hidden * MIRRORED_SHARE * libm::expf(-reach / LOST);
         CloudLight { radiance: scale(light, shown), open: 1.0 - shown }
     }
 
@@ -298,6 +290,14 @@ impl Clouds {
         let at = [0, 1].map(|axis| point[axis] + sky.sun[axis] * length);
         1.0 - SHADOW * ramp(self.heap(at, BROADEST, SOFT), 0.0, 0.34)
     }
+}
+
+/// How many levels a ray is looked at that is in the layer from so many metres on, for so many, and metres from one to the next, where
+/// such an angle is seen as one. It is no whole number, which would show as lines where it changes.
+fn levels([first, length]: [f32; 2], blur: f32) -> [f32; 2] {
+    let most = SLICES[0] + SLICES[1] * (1.0 - blur / BLURRED).max(0.0) * libm::expf(-first / LOST);
+    let count = (length / STEP).clamp(SLICES[0], most);
+    [count, length / (count - 1.0)]
 }
 
 /// The noise by which heaps are narrower at a share of their height.
@@ -459,7 +459,7 @@ mod tests {
         };
         let [seen, mirrored] = (0..800).map(hidden).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
         assert!(
-            mirrored < 2.0 * MIRRORED * seen && mirrored > 0.5 * MIRRORED * seen,
+            mirrored < 2.0 * MIRRORED_SHARE * seen && mirrored > 0.5 * MIRRORED_SHARE * seen,
             "{mirrored} for {seen}"
         );
     }

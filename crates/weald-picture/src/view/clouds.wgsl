@@ -30,7 +30,7 @@ const CLOUDS_FLATTEST = vec2<f32>(0.01, 0.001);
 const CLOUDS_MIRRORED_BLUR = 0.12;
 const CLOUDS_MIRRORED_SOFT = 0.25;
 const CLOUDS_MIRRORED_DENSE = 0.02;
-const CLOUDS_MIRRORED = 0.165;
+const CLOUDS_MIRRORED_SHARE = 0.165;
 const CLOUDS_MIRRORED_TAKEN = 5.0;
 const CLOUDS_SUNWARD = vec2<f32>(70.0, 260.0);
 const CLOUDS_TAKEN = vec2<f32>(3.6, 3.2);
@@ -97,12 +97,13 @@ fn cloud_stretch(start: vec3<f32>, rising: f32) -> vec2<f32> {
     let bottom = scene.cloud_height.x - start.z;
     let top = bottom + CLOUDS_THICK * scene.scale.y;
     let flattest = select(CLOUDS_FLATTEST.y, CLOUDS_FLATTEST.x, bottom >= 0.0);
-    let is_inside = bottom < 0.0 && top > 0.0;
+    // Without short circuits: a branch on numbers that all pixels share has software copy the shader, as `is_above` says.
+    let is_inside = (bottom < 0.0) & (top > 0.0);
     let rise = select(max(rising, CLOUDS_FLATTEST.y), min(rising, -CLOUDS_FLATTEST.y), rising < 0.0);
     let ends = select(vec2<f32>(bottom, top), vec2<f32>(top, bottom), rise < 0.0) / rise;
     let first = max(ends.x, 0.0);
     let length = min(ends.y - first, CLOUDS_THICK * scene.scale.y / CLOUDS_FLATTEST.x);
-    return vec2<f32>(first, select(0.0, length, is_inside || abs(rising) >= flattest));
+    return vec2<f32>(first, select(0.0, length, is_inside | (abs(rising) >= flattest)));
 }
 
 // How many levels a ray is looked at that is in the layer from so many metres on, for so many, and metres from one to the next,
@@ -145,7 +146,11 @@ fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
 // The light of a point of a heap as it arrives at the start of a ray, and how much of it is seen there.
 fn pale_cloud(light: vec3<f32>, start: vec3<f32>, direction: vec3<f32>, reach: f32) -> vec4<f32> {
     let above = clamp((start.z - scene.cloud_height.x) / (CLOUDS_THICK * scene.scale.y), 0.0, 1.0);
-    let veiled = mix(light, veil(light, start, direction, reach), above);
+    var veiled = light;
+    // A loop of one turn or none: software would go through what a condition leaves out.
+    for (var turn = 0u; turn < select(0u, 1u, is_above(above, 0.0, reach)); turn++) {
+        veiled = mix(light, veil(light, start, direction, reach), above);
+    }
     return vec4<f32>(veiled, exp((above - 1.0) * reach / CLOUDS_LOST));
 }
 
@@ -212,7 +217,7 @@ fn clouds_mirrored(start: vec3<f32>, direction: vec3<f32>) -> vec4<f32> {
     let through = exp(-CLOUDS_MIRRORED_TAKEN * within);
     let glow = CLOUDS_GLOW * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
     let light = scene.sunlight.xyz * (CLOUDS_THROUGH + CLOUDS_SUNNY * through + glow) + scene.clouds.xyz * (0.7 / PI);
-    let shown = hidden * CLOUDS_MIRRORED * exp(-reach / CLOUDS_LOST);
+    let shown = hidden * CLOUDS_MIRRORED_SHARE * exp(-reach / CLOUDS_LOST);
     return vec4<f32>(light * shown, 1.0 - shown);
 }
 

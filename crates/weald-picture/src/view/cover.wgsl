@@ -204,7 +204,8 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let wet = moisture + 0.55 * patchy;
     let grassy = grass(wet, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
     let green_ground = mix(grassy, mix(scene.dry.xyz, scene.forest_dark.xyz, HEATH), heath(spot, texture, wet));
-    let turf = turf_at(spot.point, spot.footprint, green_ground, scene.dry.xyz);
+    let rise = -spot.slope * spot.fall;
+    let turf = turf_at(spot.point, rise, spot.footprint, green_ground, scene.dry.xyz);
     let wooded = trees(spot, moisture, patchy);
     let tufts = rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) + turf.slope;
     let meadow = SurfaceSample(turf.albedo, tufts, vec4<f32>(0.0));

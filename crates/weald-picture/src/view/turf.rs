@@ -2,6 +2,7 @@
 //!
 //! Lengths are those of grass and hang on no cell. All numbers are chosen by eye.
 
+use super::slope_grain::on_slope;
 use super::vector::{Vector, ramp};
 use crate::colour::{Linear, mix};
 use weald_core::grain::Octaves;
@@ -32,9 +33,11 @@ pub(super) struct Turf {
     pub(super) slope: [f32; 2],
 }
 
-/// Turf of a mean colour, and one of withered grass, for a pixel of that footprint in metres.
-pub(super) fn turf(point: Vector, footprint: f32, [mean, withered]: [Linear; 2]) -> Turf {
-    let noise = Octaves { wavelength: TUFTS, count: OCTAVES, gain: GAIN, seed: SEED }.at(point, footprint);
+/// Turf of a mean colour, and one of withered grass, on ground that rises so eastward and northward, for a pixel of that footprint
+/// in metres.
+pub(super) fn turf(point: Vector, rise: [f32; 2], footprint: f32, [mean, withered]: [Linear; 2]) -> Turf {
+    let octaves = Octaves { wavelength: TUFTS, count: OCTAVES, gain: GAIN, seed: SEED };
+    let noise = on_slope(octaves, point, rise, footprint);
     let light = (1.0 + SHADE * noise.value).clamp(LIGHT[0], LIGHT[1]);
     let share = MOST_WITHERED * ramp(noise.value, WITHERED[0], WITHERED[1]);
     let albedo = mix(mean, withered, share).map(|channel| light * channel);
@@ -51,7 +54,7 @@ mod tests {
     fn brightness(footprint: f32) -> [f32; 2] {
         let at = |step: u16| {
             let point = [0.173 * f32::from(step), 0.091 * f32::from(step), 0.0];
-            turf(point, footprint, [MEAN, WITHERED_GRASS]).albedo[1] / MEAN[1]
+            turf(point, [0.0; 2], footprint, [MEAN, WITHERED_GRASS]).albedo[1] / MEAN[1]
         };
         let mean = (0..4000).map(at).sum::<f32>() / 4000.0;
         [mean, ((0..4000).map(|step| (at(step) - mean).powi(2)).sum::<f32>() / 4000.0).sqrt()]

@@ -15,9 +15,9 @@ struct Turf {
     slope: vec2<f32>,
 }
 
-// Turf of a mean colour, and one of withered grass.
-fn turf_at(point: vec3<f32>, footprint: f32, mean: vec3<f32>, withered: vec3<f32>) -> Turf {
-    let noise = octaves_at(Octaves(TURF_TUFTS, TURF_OCTAVES, TURF_GAIN, TURF_SEED), point.xy, footprint);
+// Turf of a mean colour, and one of withered grass, on ground that rises so.
+fn turf_at(point: vec3<f32>, rise: vec2<f32>, footprint: f32, mean: vec3<f32>, withered: vec3<f32>) -> Turf {
+    let noise = octaves_on_slope(Octaves(TURF_TUFTS, TURF_OCTAVES, TURF_GAIN, TURF_SEED), point, rise, footprint);
     let light = clamp(1.0 + TURF_SHADE * noise.value, TURF_LIGHT.x, TURF_LIGHT.y);
     let share = TURF_MOST_WITHERED * ramp(noise.value, TURF_WITHERED.x, TURF_WITHERED.y);
     return Turf(light * mix(mean, withered, share), TURF_HIGH * noise.slope);

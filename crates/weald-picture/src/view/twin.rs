@@ -18,13 +18,14 @@ const LIGHT: [&str; 8] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 14] = [
+const GROUND: [&str; 15] = [
     include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
     include_str!("fractures.wgsl"),
     include_str!("snow.wgsl"),
     include_str!("woods.wgsl"),
     include_str!("crown_relief.wgsl"),
+    include_str!("slope_grain.wgsl"),
     include_str!("turf.wgsl"),
     include_str!("cover.wgsl"),
     include_str!("materials.wgsl"),
