@@ -21,11 +21,19 @@ fn height_at_place(place: vec2<f32>) -> f32 {
     return spline_at(top, min(place, scene.grid.xy + 0.5));
 }
 
+// A vertex of a patch, in quads from its corner, and how far its even neighbour is.
+fn vertex_of_patch(index: u32) -> vec2<f32> {
+    return vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
+}
+
+fn onto_neighbour(at: vec2<f32>) -> vec2<f32> {
+    return -2.0 * fract(at * 0.5);
+}
+
 // The heights at a vertex, and half of its way onto its even neighbour.
 fn heights_at_vertex(asked_patch: AskedPatch, vertex: u32) -> vec2<f32> {
-    let at = vec2<f32>(f32(vertex % (QUADS + 1u)), f32(vertex / (QUADS + 1u)));
-    let odd = fract(at * 0.5) * 2.0;
-    let midway = asked_patch.corner + (at - 0.5 * odd) * asked_patch.spacing;
+    let at = vertex_of_patch(vertex);
+    let midway = asked_patch.corner + (at + 0.5 * onto_neighbour(at)) * asked_patch.spacing;
     return vec2<f32>(height_at_place(asked_patch.corner + at * asked_patch.spacing), height_at_place(midway));
 }
 

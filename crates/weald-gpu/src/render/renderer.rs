@@ -206,6 +206,7 @@ impl Renderer {
 
     /// Sends what is on its way; when all is there, what stands on the ground stands on it anew.
     fn send_coming(&mut self, waits: bool, encoder: &mut CommandEncoder) {
+        // Some of its rows are there with each picture: heights of before and after would leave cracks between patches.
         if self.coming.is_some() {
             self.terrain.patch_heights.forget();
         }

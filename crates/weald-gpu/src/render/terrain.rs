@@ -238,7 +238,6 @@ impl Terrain {
     /// Takes another ground of the same size: its heights, and the errors of its levels.
     pub(super) fn take(&mut self, heights: Heights, errors: Vec<f32>) {
         (self.heights, self.errors) = (heights, errors);
-        self.patch_heights.forget();
     }
 
     /// The box around all of it.
@@ -274,14 +273,12 @@ impl Terrain {
 
     /// Draws the ground that the camera sees, 0, or a cascade, from 1 on, by the pipeline that is set.
     pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>, view: usize) {
-        pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
-        self.grid.draw(pass, &self.seen[view].patches);
+        self.draw(pass, &self.grid, &self.seen[view].patches);
     }
 
     /// Draws the patches of the same that lie in part beyond the border by the pipeline that is set.
     pub(super) fn draw_beyond(&self, pass: &mut RenderPass<'_>, view: usize) {
-        pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
-        self.grid.draw(pass, &self.seen[view].beyond);
+        self.draw(pass, &self.grid, &self.seen[view].beyond);
     }
 
     /// Draws the walls around what has no data by the pipeline that is set.
@@ -294,8 +291,13 @@ impl Terrain {
 
     /// Draws the sides of such a view by the pipeline that is set.
     pub(super) fn draw_sides(&self, pass: &mut RenderPass<'_>, view: usize) {
+        self.draw(pass, &self.wall, &self.seen[view].sides);
+    }
+
+    /// Draws instances with the heights of their patches.
+    fn draw<T: bytemuck::Pod>(&self, pass: &mut RenderPass<'_>, indices: &Indices, instances: &Instances<T>) {
         pass.set_bind_group(HEIGHTS_GROUP, &self.patch_heights.group, &[]);
-        self.wall.draw(pass, &self.seen[view].sides);
+        indices.draw(pass, instances);
     }
 }
 

@@ -25,19 +25,14 @@ fn sliding_point(patch_of: vec4<f32>, slot: u32, at: vec2<f32>, farthest: vec2<f
     let away = (start - frame.stand.xy) * scene.grid.zw;
     let distance = length(vec3<f32>(away, frame.stand.z));
     let share = clamp((distance - slide.x) / (slide.y - slide.x), 0.0, 1.0);
-    let odd = fract(at * 0.5) * 2.0;
-    let onto = start - odd * patch_of.z;
-    let place = mix(min(start, farthest), min(onto, farthest), share);
+    let onto = onto_neighbour(at);
+    let place = mix(min(start, farthest), min(start + onto * patch_of.z, farthest), share);
     let heights = heights_of_vertex(slot, at);
-    let neighbour = heights_of_vertex(slot, at - odd).x;
-    // The parabola through the height where it begins, half-way and at its end.
+    let neighbour = heights_of_vertex(slot, at + onto).x;
+    // The parabola through the ground at the beginning of the slide, half-way and at its end.
     let left = 1.0 - share;
-    let bent = 4.0 * share * left * heights.y + (left - share) * (left * heights.x - share * neighbour);
-    return point_of(place, bent);
-}
-
-fn vertex_of_patch(index: u32) -> vec2<f32> {
-    return vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
+    let height = 4.0 * share * left * heights.y + (left - share) * (left * heights.x - share * neighbour);
+    return point_of(place, height);
 }
 
 // A point of a patch that lies within the border, or is drawn back onto it.

@@ -172,8 +172,7 @@ impl Cover {
         let grass = scale(grass, 1.0 + 0.3 * texture.fine.value + 0.3 * texture.crags.height);
         let heath = mix(self.palette.dry, self.palette.forest[0], HEATH);
         let grass = mix(grass, heath, self.heath(texture, wet));
-        let rise = spot.fall.map(|towards| -spot.slope * towards);
-        let Turf { albedo, slope } = turf(spot.point, rise, spot.footprint, [grass, self.palette.dry]);
+        let Turf { albedo, slope } = turf(spot.point, spot.rise(), spot.footprint, [grass, self.palette.dry]);
         let bump = texture.rough(0.12, 0.8 * ramp(spot.slope, 0.1, 0.7));
         SurfaceSample { albedo, bump: [0, 1].map(|axis| bump[axis] + slope[axis]) }
     }

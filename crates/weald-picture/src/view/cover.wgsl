@@ -112,6 +112,11 @@ struct Texture {
     evenness: f32,
 }
 
+// How the ground rises eastward and northward, without exaggeration.
+fn rise_of(spot: SurfacePoint) -> vec2<f32> {
+    return -spot.slope * spot.fall;
+}
+
 fn mixed(skin: SurfaceSample, other: SurfaceSample, share: f32) -> SurfaceSample {
     return SurfaceSample(
         mix(skin.albedo, other.albedo, share), mix(skin.bump, other.bump, share), mix(skin.kinds, other.kinds, share),
@@ -141,7 +146,7 @@ fn texture_of(spot: SurfacePoint) -> Texture {
     var texture: Texture;
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
     texture.fine = octaves_at(Octaves(2.4 * cell, 8u, 0.6, 0x12u), spot.point.xy, spot.footprint);
-    texture.crags = crags_at(spot.point, -spot.slope * spot.fall, cell, spot.footprint);
+    texture.crags = crags_at(spot.point, rise_of(spot), cell, spot.footprint);
     texture.evenness = pow(clamp(2.0 * spot.footprint / cell, 0.075, 1.0), 0.4);
     return texture;
 }
@@ -204,8 +209,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let wet = moisture + 0.55 * patchy;
     let grassy = grass(wet, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
     let green_ground = mix(grassy, mix(scene.dry.xyz, scene.forest_dark.xyz, HEATH), heath(spot, texture, wet));
-    let rise = -spot.slope * spot.fall;
-    let turf = turf_at(spot.point, rise, spot.footprint, green_ground, scene.dry.xyz);
+    let turf = turf_at(spot.point, rise_of(spot), spot.footprint, green_ground, scene.dry.xyz);
     let wooded = trees(spot, moisture, patchy);
     let tufts = rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) + turf.slope;
     let meadow = SurfaceSample(turf.albedo, tufts, vec4<f32>(0.0));

@@ -29,6 +29,13 @@ pub(super) struct SurfacePoint {
     pub(super) beach: f32,
 }
 
+impl SurfacePoint {
+    /// How the ground rises eastward and northward, without exaggeration.
+    pub(super) fn rise(&self) -> [f32; 2] {
+        self.fall.map(|towards| -self.slope * towards)
+    }
+}
+
 /// What light falls on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceSample {

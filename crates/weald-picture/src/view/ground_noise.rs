@@ -37,7 +37,7 @@ impl Texture {
         Self {
             broad: broad(cell).at(spot.point, spot.footprint).value,
             fine: fine.at(spot.point, spot.footprint),
-            crags: crags(spot.point, spot.fall.map(|towards| -spot.slope * towards), cell, spot.footprint),
+            crags: crags(spot.point, spot.rise(), cell, spot.footprint),
             cell,
             evenness: evenness(spot.footprint / cell),
         }

@@ -4,8 +4,9 @@ use super::cover::{Cover, STEEPEST_ROCK};
 use super::crown_relief::seen_crown;
 use super::ground_kinds::{SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, STEEPEST_CROWN, Texture, no_steeper};
+use super::slope_grain::on_upright;
 use super::vector::{filter, ramp, scale};
-use super::woods::{Canopy, canopy, turned};
+use super::woods::{Canopy, canopy};
 use crate::colour::{Linear, mix};
 use weald_core::grain::Octaves;
 
@@ -141,11 +142,7 @@ impl Cover {
         let octaves = Octaves { wavelength: GRAINED * thick, count: 6, gain: 0.6, seed: 0x17 };
         let [x, y, z] = spot.point;
         let [east, north] = spot.fall.map(|towards| towards * towards);
-        // On lattices that stand upright it would be drawn in bars.
-        let on = |along: f32| {
-            let [a, b] = turned([along, z]);
-            octaves.at([a, b, 0.0], spot.footprint).value
-        };
+        let on = |along: f32| on_upright(octaves, [along, z], spot.footprint).value;
         east * on(y) + north * on(x)
     }
 

@@ -22,6 +22,14 @@ fn planes(rise: [f32; 2]) -> Vector {
     held.map(|held| held / length)
 }
 
+/// Noise at a place of an upright plane, along it and up, and its slope along both.
+pub(super) fn on_upright(octaves: Octaves, place: [f32; 2], footprint: f32) -> Grain {
+    // On lattices that stand upright it would be drawn in bars.
+    let [a, b] = turned(place);
+    let Grain { value, slope: [first, second] } = octaves.at([a, b, 0.0], footprint);
+    Grain { value, slope: [0.8 * first - 0.6 * second, 0.6 * first + 0.8 * second] }
+}
+
 /// Noise at a point of ground that rises so, for a pixel of that footprint in metres; its slope is that of what lies on the
 /// ground, eastward and northward.
 pub(super) fn on_slope(octaves: Octaves, point: Vector, rise: [f32; 2], footprint: f32) -> Grain {
@@ -37,13 +45,10 @@ pub(super) fn on_slope(octaves: Octaves, point: Vector, rise: [f32; 2], footprin
     }
     for (axis, weight, along) in [(1, facing_east, y), (0, facing_north, x)] {
         if weight > 0.0 {
-            // On lattices that stand upright it would be drawn in bars.
-            let [a, b] = turned([along, z]);
-            let Grain { value, slope: [first, second] } = octaves.at([a, b, 0.0], footprint);
-            let [level, upright] = [0.8 * first - 0.6 * second, 0.6 * first + 0.8 * second];
+            let Grain { value, slope: [level, up] } = on_upright(octaves, [along, z], footprint);
             sum.value += weight * value;
             sum.slope[axis] += weight * level;
-            sum.slope = [0, 1].map(|axis| sum.slope[axis] + weight * upright * rise[axis]);
+            sum.slope = [0, 1].map(|axis| sum.slope[axis] + weight * up * rise[axis]);
         }
     }
     sum

@@ -6,12 +6,13 @@ use super::lit_scene::LitScene;
 use super::maps::TextureKind;
 
 /// The twins of place, light and air, each after those that it calls.
-const LIGHT: [&str; 8] = [
+const LIGHT: [&str; 9] = [
     include_str!("surface.wgsl"),
     weald_core::grain::SHADER,
     include_str!("solid_grain.wgsl"),
     include_str!("sky.wgsl"),
     include_str!("clouds.wgsl"),
+    include_str!("clouds/mirrored.wgsl"),
     include_str!("haze.wgsl"),
     include_str!("tone.wgsl"),
     include_str!("skylight.wgsl"),
