@@ -16,7 +16,7 @@ pub struct Domain {
     /// Cells with data; `None` where all have.
     pub valid: Option<Mask>,
     /// The finest grid over the same ground on which this landscape is meant to be made. Where it is finer than `size`,
-    /// ground is generated on it and a cell has the mean.
+    /// ground is generated on it and a cell has the mean; a recipe's first steps that shape ground all run on it.
     pub finest: Option<Size>,
     /// Height of the [sea](crate::sea) in metres, where there is one.
     pub sea_level: Option<f64>,

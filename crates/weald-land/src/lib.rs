@@ -5,6 +5,7 @@
 //! is simulated. One file a method, each with its equation and source. The stages never import each other.
 
 pub mod analyse;
+mod catmull_rom;
 pub mod combine;
 pub mod edit;
 pub mod erode;

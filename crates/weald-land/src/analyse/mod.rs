@@ -25,6 +25,7 @@ mod sky;
 pub mod slope;
 pub mod soil;
 mod stages;
+pub mod stream_azimuths;
 mod sun;
 pub mod sunlight;
 pub mod watersheds;

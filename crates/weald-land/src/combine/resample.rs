@@ -11,6 +11,7 @@
 
 use rayon::prelude::*;
 
+use crate::catmull_rom;
 use weald_core::domain::{Domain, Georeference};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
@@ -221,8 +222,8 @@ impl<'a> Change<'a> {
 
     fn cubic(&self, field: &Field, [x, y]: [i64; 2], [way_x, way_y]: [f64; 2]) -> Option<f32> {
         let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
-        for (row, weight_y) in (y - 1..).zip(catmull_rom(way_y)) {
-            for (column, weight_x) in (x - 1..).zip(catmull_rom(way_x)) {
+        for (row, weight_y) in (y - 1..).zip(catmull_rom::weights(way_y)) {
+            for (column, weight_x) in (x - 1..).zip(catmull_rom::weights(way_x)) {
                 let value = self.value(field, column, row)?;
                 sum += weight_x * weight_y * value;
                 (low, high) = (low.min(value), high.max(value));
@@ -250,14 +251,4 @@ struct Part {
     x: usize,
     y: usize,
     area: f64,
-}
-
-/// Weights of four points in a row for a place `t` of the way from the second to the third.
-fn catmull_rom(t: f64) -> [f64; 4] {
-    [
-        0.5 * t * (-1.0 + t * (2.0 - t)),
-        1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
-        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
-        0.5 * t * t * (t - 1.0),
-    ]
 }

@@ -8,7 +8,7 @@ use super::fluvial_levels::{self as levels, refined};
 use super::fluvial_materials::StartColumn;
 use super::fluvial_years::{InYears, Years};
 use super::stream_power::{Conditions, Evolution, Mesh};
-use super::stream_power_step::{Lakes, Outlets, StreamPower};
+use super::stream_power_step::{Grids, Lakes, Outlets, StreamPower};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -31,7 +31,7 @@ impl StreamPower {
         let seen = Seen { landscape: &given, ground: &self.layer, materials: self.materials };
         let mut reached = Reached::default();
         // Checkpoints are of the finest grid, which begins with all that coarser ones have come to.
-        let coarser = if job.resume.is_some() { 1..1 } else { 1..grids };
+        let coarser = if job.resume.is_some() { 1..1 } else { 1..grids.count };
         for level in coarser.rev() {
             let coarse = seen.on_level(level, self.maps())?;
             let finer = |seen: &Landscape| as_seen(&given, seen, (&self.layer.0, level));
@@ -68,11 +68,10 @@ impl Reached {
     }
 }
 
-fn years(step: &StreamPower, level: u32, grids: u32) -> Years {
-    let share = |level| levels::Shares::UPLIFT.of(level, grids);
-    let before = (level + 1..grids).map(share).sum::<f64>() * step.duration;
+fn years(step: &StreamPower, level: u32, grids: Grids) -> Years {
+    let before = (level + 1..grids.count).map(|level| grids.share(level)).sum::<f64>() * step.duration;
     let steps = step.steps(level, grids).max(1);
-    Years { before, a_step: step.duration * share(level) / steps as f64 }
+    Years { before, a_step: step.duration * grids.share(level) / steps as f64 }
 }
 
 /// The landscape of the start as it looks when a coarser one has become `coarse`.
@@ -107,7 +106,7 @@ impl<'a> Level<'a> {
     fn on(
         step: &'a StreamPower,
         landscape: &'a Landscape,
-        (level, grids): (u32, u32),
+        (level, grids): (u32, Grids),
     ) -> Result<Self, Error> {
         let start = landscape.field(&step.layer.0)?;
         let rate = step.uplift * MILLIMETRE;
@@ -120,7 +119,7 @@ impl<'a> Level<'a> {
         };
         let column = step.materials.then(|| BareMaterial::of(landscape, start)).transpose()?;
         let (years, steps) = (years(step, level, grids), step.steps(level, grids));
-        Ok(Self { step, landscape, years, steps, start, uplift, column, number: u64::from(level) })
+        Ok(Self { step, landscape, years, steps, start, uplift, column, number: grids.seed(level) })
     }
 
     /// Lets all the time pass, from what coarser levels have reached.

@@ -103,6 +103,10 @@ parameters! {
         /// Longest cells of these grids. On the coarsest it is decided where rivers run: a landscape of any size that
         /// begins on the same one has the same rivers.
         coarsest: f64 = 100.0, range 0.001..=100_000.0, unit "m";
+        /// Length of the cells on which the landscape is settled, so that it is one at every size: grids with such cells and
+        /// coarser ones have the time that they have where there are no finer ones, and the same rivers; each finer one only
+        /// adds detail, in a hundredth of the time. By default every grid has its eighth.
+        settled: Option<f64> = None, range 0.001..=100_000.0, unit "m";
         /// Layer to erode.
         layer: LayerName = LayerName::of("height");
     }
@@ -116,15 +120,45 @@ pub const ENTRY: Entry = Entry::of::<StreamPower>(
     "Braun and Willett 2013, doi 10.1016/j.geomorph.2012.10.008; Yuan et al. 2019, doi 10.1029/2018JF004867",
 );
 
+/// The grids of a landscape, each with cells twice as long as those of the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grids {
+    pub(super) count: u32,
+    /// Those with shorter cells than the landscape is settled on.
+    finer: u32,
+}
+
+impl Grids {
+    /// Share of the time on a grid that adds detail: its rivers have not yet moved, but have cut down.
+    const DETAIL: f64 = 0.01;
+
+    /// Share of the time on one of them, counted from the finest, 0.
+    pub(super) fn share(self, level: u32) -> f64 {
+        let Some(settled) = level.checked_sub(self.finer) else { return Self::DETAIL };
+        let alone = levels::Shares::UPLIFT.of(settled, self.count - self.finer);
+        if settled == 0 { alone - f64::from(self.finer) * Self::DETAIL } else { alone }
+    }
+
+    /// What tells the seed of one of them from others: the same for the same cells.
+    pub(super) fn seed(self, level: u32) -> u64 {
+        (i64::from(level) - i64::from(self.finer)).cast_unsigned()
+    }
+}
+
 impl StreamPower {
     /// The layers that it reads beside the ground.
     pub(super) fn maps(&self) -> impl Iterator<Item = &LayerName> {
         [&self.uplift_map, &self.erodibility_map].into_iter().flatten()
     }
 
-    /// On how many grids it runs over cells of that many metres.
-    pub(super) fn grids(&self, cell: f64) -> u32 {
-        levels::grids(self.levels, self.coarsest, cell)
+    /// The grids on which it runs over cells of that many metres.
+    pub(super) fn grids(&self, cell: f64) -> Grids {
+        let count = levels::grids(self.levels, self.coarsest, cell);
+        let is_finer = |level: &u32| {
+            let long = cell * f64::from(1 << level);
+            self.settled.is_some_and(|settled| long < settled * (1.0 - 1e-9))
+        };
+        Grids { count, finer: (0..count - 1).take_while(is_finer).count() as u32 }
     }
 
     /// Years of a step of time, before the last of a level is cut to what is left.
@@ -134,9 +168,9 @@ impl StreamPower {
         self.time_step.unwrap_or(self.duration / STEPS)
     }
 
-    /// Steps of time on one of so many grids, counted from the finest, 0.
-    pub(super) fn steps(&self, level: u32, grids: u32) -> u64 {
-        let years = self.duration * levels::Shares::UPLIFT.of(level, grids);
+    /// Steps of time on one of the grids, counted from the finest, 0.
+    pub(super) fn steps(&self, level: u32, grids: Grids) -> u64 {
+        let years = self.duration * grids.share(level);
         if years > 0.0 { (years / self.step_years() - 1e-9).ceil().max(1.0) as u64 } else { 0 }
     }
 }
@@ -192,7 +226,7 @@ impl Step for StreamPower {
                 "`outlets` is \"sea\", but there is none: give `sea_level` in [landscape], in metres";
             return Err(Error::Run(message.to_owned()));
         }
-        levels::check(domain, self.grids(domain.cell))
+        levels::check(domain, self.grids(domain.cell).count)
     }
 
     fn bytes_per_cell(&self) -> u64 {
@@ -204,7 +238,7 @@ impl Step for StreamPower {
         let grids = self.grids(domain.cell);
         let on = |level: u32| self.steps(level, grids) as f64 / f64::from(1 << (2 * level));
         let method = if self.deposition > 0.0 { "deposition" } else { "" };
-        Work::of((0..grids).map(on).sum::<f64>()).by(method)
+        Work::of((0..grids.count).map(on).sum::<f64>()).by(method)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

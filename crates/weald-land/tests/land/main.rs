@@ -21,5 +21,6 @@ mod runaway;
 mod same_bits;
 mod scaling;
 mod stava;
+mod stream_azimuths;
 mod stream_power;
 mod transport;

@@ -1022,6 +1022,7 @@ class Steps:
         irregularity: float = 0.7,
         levels: int = 1,
         coarsest: float = 100.0,
+        settled: float | None = None,
         layer: str = "height",
         seed: int = 0,
         engine: str = "auto",
@@ -1071,6 +1072,8 @@ class Steps:
             Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: an eighth of the time passes on each but the coarsest, which has the rest. The numbers of cells must divide, and none may be without data.
         coarsest: number, 0.001 to 100000 m; default 100.0
             Longest cells of these grids. On the coarsest it is decided where rivers run: a landscape of any size that begins on the same one has the same rivers.
+        settled: number, 0.001 to 100000 m
+            Length of the cells on which the landscape is settled, so that it is one at every size: grids with such cells and coarser ones have the time that they have where there are no finer ones, and the same rivers; each finer one only adds detail, in a hundredth of the time. By default every grid has its eighth.
         layer: layer name; default "height"
             Layer to erode.
         """
@@ -2223,6 +2226,7 @@ class AccessorSteps:
         irregularity: float = 0.7,
         levels: int = 1,
         coarsest: float = 100.0,
+        settled: float | None = None,
         layer: str = "height",
         seed: int = 0,
         engine: str = "auto",

@@ -21,9 +21,11 @@ use weald_plants::ifs::{Ifs, flame};
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
         Ground::Empty { size, cell, finest } => {
+            let own = || Domain { finest: *finest, ..Domain::new(*size, *cell) };
+            let first = recipe.first_grid().unwrap_or_else(own);
             // A recipe that was read for a run out of core may be larger.
-            Size::new(size.columns, size.rows)?;
-            (Landscape::new(Domain { finest: *finest, ..Domain::new(*size, *cell) }), Vec::new())
+            Size::new(first.size.columns, first.size.rows)?;
+            (Landscape::new(first), Vec::new())
         }
         Ground::File { path, cell, said } => ground_file::read(path, *cell, said)?,
     };

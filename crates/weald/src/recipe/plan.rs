@@ -2,6 +2,7 @@
 
 mod files;
 mod films;
+mod finest_ground;
 mod fractals;
 mod grids;
 mod landscape;
@@ -42,6 +43,7 @@ use weald_core::domain::Domain;
 use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_core::files::File;
 use weald_core::grid::Size;
+use weald_core::landscape::Landscape;
 use weald_export::{Export, report};
 
 /// A recipe that can run.
@@ -63,6 +65,8 @@ pub struct Recipe {
     pub steps: Vec<Planned>,
     /// What is written at the end.
     pub outputs: Vec<Output>,
+    /// Whether its first steps run on the finest grid.
+    begins_on_finest: bool,
     /// Files that it names, with the line of the key.
     named: Vec<(PathBuf, usize)>,
     text: String,
@@ -162,11 +166,28 @@ impl Recipe {
 
     /// Checks what depends on the grid, where the recipe says it.
     fn check_on_its_grid(&self, may_be_larger_than_memory: bool) -> Result<(), Error> {
-        let Ground::Empty { size, cell, .. } = self.ground else { return Ok(()) };
+        let Some(first) = self.first_grid() else { return Ok(()) };
         if !may_be_larger_than_memory {
-            Size::new(size.columns, size.rows)?;
+            Size::new(first.size.columns, first.size.rows)?;
         }
-        self.check_on(&Domain { sea_level: self.sea_level, ..Domain::new(size, cell) })
+        self.check_on(&first)
+    }
+
+    /// The grid that the first step finds, where no file says it.
+    pub(super) fn first_grid(&self) -> Option<Domain> {
+        let Ground::Empty { size, cell, finest } = self.ground else { return None };
+        let own = || Domain { finest, ..Domain::new(size, cell) };
+        let finest = self.begins_on_finest.then(|| finest_ground::grid(&self.ground)).flatten();
+        Some(Domain { sea_level: self.sea_level, ..finest.unwrap_or_else(own) })
+    }
+
+    /// The landscape on the recipe's grid, whatever grid a step has left it on.
+    pub(super) fn on_own_grid(&self, landscape: Landscape) -> Result<Landscape, Error> {
+        if self.begins_on_finest {
+            finest_ground::on_own_grid(&self.ground, landscape)
+        } else {
+            Ok(landscape)
+        }
     }
 
     /// What a table says, before it is known on which grid.
@@ -302,7 +323,7 @@ fn check(
     let before = diagnostics.found.len();
     let fractals = fractals::read(files, recipe, diagnostics);
     let fractals_understood = diagnostics.found.len() == before;
-    let (steps, all_understood) = steps::read(files, recipe, diagnostics);
+    let (mut steps, all_understood) = steps::read(files, recipe, diagnostics);
     let outputs = outputs::read(vocabulary, recipe, diagnostics);
     if fractals_understood {
         fractals::check_names(&fractals, &steps, &outputs, diagnostics);
@@ -326,5 +347,18 @@ fn check(
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
     let (file, named) = (file.to_owned(), named.into_inner());
     let (ground, seed, sea_level) = (start.ground?, start.seed, start.sea_level);
-    Ok(Recipe { file, ground, sea_level, seed, materials, fractals, steps, outputs, named, text })
+    let begins_on_finest = finest_ground::set_out(&ground, &mut steps, &materials);
+    Ok(Recipe {
+        file,
+        ground,
+        sea_level,
+        seed,
+        materials,
+        fractals,
+        steps,
+        outputs,
+        begins_on_finest,
+        named,
+        text,
+    })
 }

@@ -1,8 +1,10 @@
 //! Generators: the same bits on any number of threads, the same ground at any resolution, no preferred
 //! direction.
 
+use std::sync::Arc;
+
 use proptest::prelude::*;
-use weald::engine::Job;
+use weald::engine::{Engine, Job};
 use weald::generate::Generator;
 use weald::generate::diamond_square::DiamondSquare;
 use weald::generate::fault::Fault;
@@ -12,6 +14,7 @@ use weald::generate::warp::Warp;
 use weald::recipe::catalog::CATALOG;
 use weald::recipe::parameter::{Diagnostics, LayerName};
 use weald::recipe::source;
+use weald::recipe::{Cache, Overrides, Recipe, Silent};
 use weald::step::{Stage, Step};
 use weald::{Domain, Field, Landscape, Size};
 
@@ -214,6 +217,115 @@ fn every_generator_of_the_catalogue_makes_a_coarse_ground_of_the_means_of_the_fi
             let off = (mean(x, y) - f64::from(coarse.at(x, y))).abs();
             assert!(off <= 1e-5 * f64::from(high - low), "{}: {off} m at {x}, {y}", entry.name);
         }
+    }
+}
+
+/// Hills, squared and laid on a slope by a mask: what no mean of coarse layers gives.
+fn shaped(after: &str) -> String {
+    format!(
+        r#"
+[landscape]
+size = [24, 16]
+cell = 40.0
+finest = 96
+sea_level = 100.0
+[[step]]
+do = "fbm"
+wavelength = 300.0
+[[step]]
+do = "remap"
+to = [0.0, 500.0]
+gamma = 2.5
+[[step]]
+do = "fbm"
+into = "mask"
+wavelength = 500.0
+[[step]]
+do = "remap"
+layer = "mask"
+[[step]]
+do = "plane"
+into = "slope_of_rock"
+slope = 0.4
+[[step]]
+do = "blend"
+with = "slope_of_rock"
+mask = "mask"
+{after}
+[[output]]
+layer = "height"
+file = "height.tif"
+"#
+    )
+}
+
+fn recipe_of(text: &str) -> Recipe {
+    Recipe::parse("shaped.toml", text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn all_steps_that_shape_ground_run_on_the_finest_grid_and_the_landscape_has_their_means() {
+    let land = |text: &str| recipe_of(text).landscape().unwrap_or_else(|error| panic!("{error}"));
+    let slope = "[[step]]\ndo = \"slope\"";
+    let fine = land(&shaped(slope).replace("size = [24, 16]\ncell = 40.0", "size = [96, 64]\ncell = 10.0"));
+    let of = |land: &Landscape, name: &str| land.field(name).expect("written").clone();
+    // With a step after them, and where the last of them is the last of all.
+    for after in [slope, ""] {
+        let coarse = land(&shaped(after));
+        assert_eq!((coarse.domain.size, coarse.domain.cell), (Size::new(24, 16).expect("small"), 40.0));
+        for (name, range) in [("height", 500.0), ("mask", 1.0)] {
+            let (fine, coarse) = (of(&fine, name), of(&coarse, name));
+            for (x, y) in (0..24).flat_map(|x| (0..16).map(move |y| (x, y))) {
+                let cells = (0..16).map(|at| f64::from(fine.at(4 * x + at % 4, 4 * y + at / 4)));
+                let off = (cells.sum::<f64>() / 16.0 - f64::from(coarse.at(x, y))).abs();
+                assert!(off <= 1e-6 * range, "`{name}` is {off} off at {x}, {y}");
+            }
+        }
+        // The sea stands over the ground of the coarse cells, and is no mean of a finer sea.
+        for (&height, &depth) in of(&coarse, "height").values().iter().zip(of(&coarse, "sea_depth").values())
+        {
+            assert!(depth == 0.0 || depth == 100.0 - height, "{depth} m over {height} m");
+        }
+    }
+    // Without a finest grid the coarse ground is another.
+    let own = land(&shaped(slope).replace("finest = 96\n", ""));
+    let coarse = land(&shaped(slope));
+    let off = |(&a, &b): (&f32, &f32)| (a - b).abs();
+    let (own, coarse) = (of(&own, "height"), of(&coarse, "height"));
+    assert!(own.values().iter().zip(coarse.values()).map(off).fold(0.0, f32::max) > 20.0);
+}
+
+#[test]
+fn a_landscape_in_the_middle_of_such_steps_is_seen_on_its_own_grid_and_kept_results_are_not_mixed_up() {
+    let cache = Arc::new(Cache::in_memory(1 << 26).keeping_all());
+    let after = |text: &str, steps: usize| {
+        let land = recipe_of(text).landscape_after(steps, &Engine::Cpu, Some(&cache), &Silent);
+        let land = land.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(land.domain.size.columns, 24, "after {steps} steps");
+        land.field("height").expect("written").clone()
+    };
+    let whole = shaped("");
+    let [first, last] = [1, 6].map(|steps| after(&whole, steps));
+    // With fewer steps another one is the last on the finest grid.
+    let (start, rest) = whole.split_at(whole.find("[[step]]\ndo = \"remap\"").expect("is there"));
+    let shorter = format!("{start}{}", &rest[rest.find("[[output]]").expect("is there")..]);
+    assert_eq!(after(&shorter, 1), first);
+    assert_eq!(after(&whole, 6), last);
+    let own = recipe_of(&shorter).landscape().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(own.field("height").expect("written"), &first);
+}
+
+#[test]
+fn steps_that_count_cells_or_name_kinds_do_not_run_on_the_finest_grid() {
+    for entry in CATALOG {
+        let table = source::parse("recipe", "").expect("empty");
+        let step = (entry.read)(&table, &mut Diagnostics::default());
+        let shapes = match entry.stage {
+            Stage::Generate => true,
+            Stage::Combine => !["resample", "layers", "top-material"].contains(&entry.name),
+            _ => false,
+        };
+        assert_eq!(step.shapes_ground(), shapes, "{}", entry.name);
     }
 }
 

@@ -20,10 +20,19 @@ spacing = 60.0
 "#;
 
 fn island(side: u64) -> Landscape {
+    changed_island(side, &[])
+}
+
+/// The island with other words in its template.
+fn changed_island(side: u64, changes: &[[&str; 2]]) -> Landscape {
     let template = template::find("island").expect("is there").text;
     let (steps, outputs) = template.split_at(template.find("[[output]]").expect("has outputs"));
+    let mut text = format!("{steps}{PLANTED}{outputs}");
+    for [from, to] in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
     let overrides = Overrides { size: Some(side), ..Overrides::default() };
-    let text = format!("{steps}{PLANTED}{outputs}");
     let recipe = Recipe::parse("island.toml", &text, &overrides).unwrap_or_else(|error| panic!("{error}"));
     recipe.landscape().unwrap_or_else(|error| panic!("{error}"))
 }
@@ -56,21 +65,38 @@ fn no_river_runs_on_the_floor_of_the_sea_and_no_plant_stands_in_it() {
     assert!(plants.iter().all(|plant| plant.place[2] > -0.1), "plants stand in water no deeper than 0.1 m");
 }
 
+/// Area of the land in km², its mean height, and how far the heights are from those of a landscape twice as fine, as a
+/// share of the highest: root mean square on land.
+fn beside([coarse, fine]: [&Landscape; 2]) -> [f64; 3] {
+    let side = coarse.domain.size.columns;
+    let [own, finer] = [coarse, fine].map(|land| land.field("height").expect("there is ground"));
+    let (mut squares, mut sum, mut cells) = (0.0, 0.0, 0.0);
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        let mean = (0..4).map(|at| f64::from(finer.at(2 * x + at % 2, 2 * y + at / 2))).sum::<f64>() / 4.0;
+        let height = f64::from(own.at(x, y));
+        if height > 0.0 {
+            squares += (height - mean).powi(2);
+            sum += height;
+            cells += 1.0;
+        }
+    }
+    let highest = finer.range(None).map_or(1.0, |(_, high)| f64::from(high));
+    [cells * coarse.domain.cell_area() / 1e6, sum / cells, (squares / cells).sqrt() / highest]
+}
+
 #[test]
 fn the_island_is_the_same_at_every_size() {
-    let figures = |side: u64| {
-        let land = island(side);
-        let (height, sea) = (values(&land, "height"), values(&land, "sea_depth"));
-        let on_land: Vec<f64> = height
-            .iter()
-            .zip(sea)
-            .filter(|(_, sea)| **sea == 0.0)
-            .map(|(&height, _)| f64::from(height))
-            .collect();
-        let area = on_land.len() as f64 * land.domain.cell_area() / 1e6;
-        [area, on_land.iter().sum::<f64>() / on_land.len() as f64]
-    };
-    let [coarse, fine] = [128, 256].map(figures);
-    let off = [0, 1].map(|figure| (coarse[figure] / fine[figure] - 1.0).abs());
-    assert!(off[0] < 0.05 && off[1] < 0.1, "land and mean height are {coarse:?} and {fine:?} (km², m)");
+    // On cells as small as the template's a run would take a minute: what decides where rivers run is four times as coarse.
+    let small = [["settled = 40.0", "settled = 160.0"], ["coarsest = 40.0", "coarsest = 160.0"]];
+    let [coarse, fine] = [128, 256].map(|side| changed_island(side, &small));
+    let [area, mean, off] = beside([&coarse, &fine]);
+    assert!((110.0..135.0).contains(&area) && (150.0..200.0).contains(&mean), "{area} km² of {mean} m");
+    assert!(off < 0.025, "{off} of the highest");
+    // Ground made on the landscape's own cells, or cells that never settle, are another island.
+    for change in [["finest = 2048", "finest = 128"], ["settled = 160.0", ""]] {
+        let side = if change[0].starts_with("finest") { 128 } else { 256 };
+        let other = changed_island(side, &[&small[..], &[change]].concat());
+        let pair = if side == 128 { [&other, &fine] } else { [&coarse, &other] };
+        assert!(beside(pair)[2] > 0.035, "{change:?}: {:?}", beside(pair));
+    }
 }

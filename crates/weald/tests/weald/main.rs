@@ -33,5 +33,6 @@ mod report;
 mod rivers;
 mod sessions;
 mod shaders;
+mod stream_azimuths;
 mod told_before;
 mod vectors;

@@ -107,6 +107,8 @@ impl Follows {
             program.clone(),
             format!("step = {name}\nseed = {seed}\n{}", canonical::keys(&planned.keys)),
             format!("grid = {grid}\ndeclared = {declared}"),
+            // The same keys leave another grid where the step is the last on the finest.
+            format!("resized = {:?}", planned.step.resized()),
         ];
         for file in planned.step.files() {
             lines.push(format!("file = {}", contents(&file)?));

@@ -17,9 +17,9 @@ weald_core::parameters! {
         size: Option<Sides> = None;
         /// Side of a cell; 1 m where none is given. With `from`, only for a file that does not say it.
         cell: Option<f64> = None, range 0.001..=100_000.0, unit "m";
-        /// Cells a side, or [columns, rows], of the finest grid on which this landscape will be made. Ground is generated
-        /// on it and a cell has the mean, so that a coarse landscape is the mean of a fine one. `--size` and `--preview`
-        /// set it to the recipe's own size where they make that coarser.
+        /// Cells a side, or [columns, rows], of the finest grid on which this landscape will be made. The first steps, as
+        /// long as they generate or combine layers, run on it and a cell has the mean, so that a coarse landscape is the
+        /// mean of a fine one. `--size` and `--preview` set it to the recipe's own size where they make that coarser.
         finest: Option<Sides> = None, with size;
         /// Seed of all random numbers. Steps of the same kind draw from different numbers.
         seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;

@@ -1,0 +1,130 @@
+//! Ground of a recipe that names a finest grid: the steps that shape it run there, and the last of them leaves the means
+//! over the landscape's cells.
+
+use std::path::PathBuf;
+
+use super::steps::Planned;
+use super::{Ground, PlannedMaterial};
+use weald_core::domain::Domain;
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_core::parameter::{Fault, Sides};
+use weald_engine::Job;
+use weald_engine::step::{Layered, Outcome, Step, Work};
+use weald_land::combine::resample::Resample;
+
+/// Lets the steps that shape the ground run on the finest grid, and says whether there are any. Where a material comes from a
+/// file, which has the landscape's cells, and where there is no finer grid, there are none.
+pub(super) fn set_out(ground: &Ground, steps: &mut Vec<Planned>, materials: &[PlannedMaterial]) -> bool {
+    let &Ground::Empty { size, finest: Some(finest), .. } = ground else { return false };
+    let count = steps.iter().take_while(|planned| planned.step.shapes_ground()).count();
+    if finest.columns <= size.columns || materials.iter().any(|planned| planned.file.is_some()) {
+        return false;
+    }
+    let Some(last) = count.checked_sub(1) else { return false };
+    let rest = steps.split_off(last);
+    steps.extend(rest.into_iter().enumerate().map(|(number, planned)| match number {
+        0 => Planned { step: Box::new(ThenMeans { step: planned.step, size }), ..planned },
+        _ => planned,
+    }));
+    true
+}
+
+/// The grid of such ground.
+pub(super) fn grid(ground: &Ground) -> Option<Domain> {
+    let &Ground::Empty { size, cell, finest } = ground else { return None };
+    let finest = finest?;
+    let cell = cell * size.columns as f64 / finest.columns as f64;
+    Some(Domain { finest: Some(finest), ..Domain::new(finest, cell) })
+}
+
+/// The landscape as it is on the grid of its recipe, where it still is on the finest.
+///
+/// # Errors
+/// None but for grids that do not go together, which the recipe has been checked for.
+pub(super) fn on_own_grid(ground: &Ground, mut landscape: Landscape) -> Result<Landscape, Error> {
+    if let &Ground::Empty { size, finest: Some(finest), .. } = ground
+        && landscape.domain.size == finest
+    {
+        to(size).run(&mut landscape, &Job::unwatched(0))?;
+    }
+    Ok(landscape)
+}
+
+fn to(size: Size) -> Resample {
+    Resample { size: Sides { columns: size.columns as u64, rows: size.rows as u64 } }
+}
+
+/// A step, and then means of all layers over the cells of a coarser grid.
+#[derive(Debug)]
+struct ThenMeans {
+    step: Box<dyn Step>,
+    size: Size,
+}
+
+impl Step for ThenMeans {
+    fn reads(&self) -> Vec<String> {
+        self.step.reads()
+    }
+
+    fn reads_where_there(&self) -> Vec<String> {
+        self.step.reads_where_there()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        self.step.writes()
+    }
+
+    fn layered(&self) -> Layered {
+        self.step.layered()
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.step.files()
+    }
+
+    fn look_ahead(&self, materials: &[Material], domain: &Domain) -> Result<(), Error> {
+        self.step.look_ahead(materials, domain)
+    }
+
+    fn faults(&self) -> Vec<Fault> {
+        self.step.faults()
+    }
+
+    fn faults_among(&self, materials: &[Material]) -> Vec<Fault> {
+        self.step.faults_among(materials)
+    }
+
+    fn range(&self, layer: &str) -> Option<(f64, f64)> {
+        self.step.range(layer)
+    }
+
+    fn resized(&self) -> Option<(u32, u32)> {
+        to(self.size).resized()
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        self.step.check_on(domain)?;
+        to(self.size).check_on(domain)
+    }
+
+    fn domain_after(&self, domain: &Domain) -> Option<Domain> {
+        to(self.size).domain_after(domain)
+    }
+
+    fn bytes_per_cell(&self) -> u64 {
+        self.step.bytes_per_cell()
+    }
+
+    fn work(&self, domain: &Domain) -> Work {
+        self.step.work(domain)
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let outcome = self.step.run(landscape, job)?;
+        to(self.size).run(landscape, job)?;
+        Ok(outcome)
+    }
+}
