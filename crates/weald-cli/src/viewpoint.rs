@@ -88,15 +88,20 @@ fn standing(place: Point, eye_height: Option<f64>, scene: &LitScene) -> Result<[
         Some(elevation) => scene.drawn_height(elevation),
         None => scene.above_ground([east, south], eye_height.unwrap_or_default())[2],
     };
-    let lowest = ground.unwrap_or(scene.base());
-    if height < lowest + MIN_CLEARANCE {
+    let height_above = height - ground.unwrap_or(scene.base());
+    if height_above < MIN_CLEARANCE {
         return Err(Failure::usage(format!(
-            "the camera at {east},{south} is {:.2} m above the ground; it must be {MIN_CLEARANCE} m at least: give a \
-             higher --eye X,Y,Z, or --eye X,Y --eye-height 1.7",
-            height - lowest
+            "{}: give a higher --eye X,Y,Z, or --eye X,Y --eye-height 1.7",
+            too_low([east, south], height_above)
         )));
     }
     Ok([east as f32, -south as f32, height])
+}
+
+fn too_low([east, south]: [f64; 2], height_above: f32) -> String {
+    format!(
+        "the camera at {east},{south} is {height_above:.2} m above the ground; it must be {MIN_CLEARANCE} m at least"
+    )
 }
 
 /// Least height of a camera above the ground, in metres.
@@ -121,7 +126,27 @@ fn camera_path(files: &RenderFiles, scene: &LitScene) -> Result<Vec<Camera>, Fai
     let camera_path = CameraPath { points, target: target(files, scene) };
     let frames = files.frames.expect("clap asks for it");
     let share = |frame| f64::from(frame) / f64::from(frames - 1);
-    Ok((0..frames).map(|frame| camera_path.camera(share(frame), scene.camera())).collect())
+    let cameras = (0..frames).map(|frame| camera_path.camera(share(frame), scene.camera()));
+    let above = |(frame, camera)| match files.eye_height {
+        Some(metres) => Ok(scene.kept_above_ground(camera, metres)),
+        None => above_ground(camera, frame, scene),
+    };
+    cameras.enumerate().map(above).collect()
+}
+
+/// A camera on its way between two points, unless the ground rises higher there.
+fn above_ground(camera: Camera, frame: usize, scene: &LitScene) -> Result<Camera, Failure> {
+    let [east, north, height] = camera.eye;
+    let place = [f64::from(east), f64::from(-north)];
+    let height_above = height - scene.top_at(place).unwrap_or(scene.base());
+    if height_above >= MIN_CLEARANCE {
+        return Ok(camera);
+    }
+    let whole = place.map(f64::round);
+    Err(Failure::usage(format!(
+        "frame {frame} of the flight: {}: give --through a higher point there",
+        too_low(whole, height_above)
+    )))
 }
 
 #[cfg(test)]

@@ -129,6 +129,13 @@ fn what_cannot_be_drawn_is_reported_with_what_can() {
     refused(&["-o", "a.jpg"], 2, &["a.jpg", ".png"]);
     refused(&["-o", "a.apng"], 2, &["a still"]);
     refused(&["--eye", "480,320,-500"], 2, &["above the ground", "--eye-height 1.7"]);
+    // Both ends lie over the ground, and the smooth line between them dips below it.
+    let dive = ["--eye", "10,320,9000", "--through", "400,320,120", "800,320,120", "950,320,9000"];
+    refused(
+        &[&dive[..], &["--frames", "9"]].concat(),
+        2,
+        &["frame 3 of the flight", "--through a higher point"],
+    );
     refused(&["--sun-altitude-deg", "95"], 3, &["95", "90"]);
     assert!(
         place.names(".").iter().all(|name| ["r.toml", "out"].contains(&name.as_str())),

@@ -122,7 +122,11 @@ impl Render {
     }
 
     fn standing(&self, scene: &LitScene, place: [f64; 2]) -> [f32; 3] {
-        scene.above_ground(place, self.view.eye_height.max(MIN_CLEARANCE))
+        scene.above_ground(place, self.height_above_ground())
+    }
+
+    fn height_above_ground(&self) -> f64 {
+        self.view.eye_height.max(MIN_CLEARANCE)
     }
 }
 
@@ -141,8 +145,9 @@ impl FrameSequence<'_> {
     pub fn camera(&self, frame: Frame) -> Camera {
         let Frame { number, count, .. } = frame;
         if let Some(camera_path) = &self.camera_path {
-            return camera_path
-                .camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.scene.camera());
+            let share = number as f64 / count.saturating_sub(1).max(1) as f64;
+            let camera = camera_path.camera(share, self.scene.camera());
+            return self.scene.kept_above_ground(camera, self.render.height_above_ground());
         }
         let view = &self.render.view;
         if count > 1 {
@@ -154,5 +159,31 @@ impl FrameSequence<'_> {
             Some(&place) if view.turn_deg.is_none() => camera.at(self.render.standing(&self.scene, place)),
             _ => camera,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Domain;
+    use weald_core::grid::{Field, Size};
+
+    #[test]
+    fn a_camera_between_two_points_goes_over_the_hill_that_stands_between_them() {
+        let size = Size::square(32).expect("small");
+        let mut land = Landscape::new(Domain::new(size, 10.0));
+        let hill = |x: usize, _: usize| 100.0 * libm::expf(-((x as f32 - 16.0) / 4.0).powi(2));
+        land.insert("height", "m", Field::from_function(size, hill));
+        let scene = LitScene::new(&View::default(), &land).expect("ground");
+        let standing = |east: f64| scene.above_ground([east, 160.0], 1.7);
+        let camera_path = CameraPath { points: vec![standing(20.0), standing(300.0)], target: None };
+        let heights = (0..=20).map(|frame| {
+            let along = camera_path.camera(f64::from(frame) / 20.0, scene.camera());
+            let eye = scene.kept_above_ground(along, 1.7).eye;
+            let ground = scene.above_ground([f64::from(eye[0]), f64::from(-eye[1])], 0.0)[2];
+            assert!(eye[2] >= along.eye[2] && eye[2] - ground > 1.69, "{} m", eye[2] - ground);
+            eye[2]
+        });
+        assert!(heights.fold(0.0, f32::max) > 90.0, "it went round the hill");
     }
 }

@@ -64,7 +64,7 @@ weald_core::parameters! {
         /// Diameter of the sun in the sky: a larger one has softer shadows.
         sun_diameter_deg: f64 = 0.53, range 0.01..=20.0, unit "deg";
         /// Share of the sky that fair-weather clouds hide, whose shadows lie on the land. They are 1300 m above the highest
-        /// ground, and are drawn from below.
+        /// ground.
         clouds: f64 = 0.0, range 0.0..=1.0;
         /// Meteorological visibility: how far one sees through the haze at the lowest ground. By default the haze
         /// takes a seventh of the light between the middle of the landscape and the camera.

@@ -226,6 +226,15 @@ impl LitScene {
         [east as f32, -south as f32, ground + metres as f32 * self.setting.exaggeration]
     }
 
+    /// A camera that stands so many metres above the drawn ground at least: on its way between two points of a flight a hill
+    /// may stand higher than both.
+    pub fn kept_above_ground(&self, mut camera: Camera, metres: f64) -> Camera {
+        let [east, north, height] = camera.eye;
+        let [.., lowest] = self.above_ground([f64::from(east), f64::from(-north)], metres);
+        camera.eye[2] = height.max(lowest);
+        camera
+    }
+
     /// Height of what is drawn around the landscape at such a point: of the plain, or of the ground or water there.
     fn around_at(&self, [east, south]: [f64; 2]) -> f32 {
         let place = self.setting.terrain.place([east as f32, -south as f32, 0.0]);

@@ -47,9 +47,13 @@ const AT_SEA: f32 = 0.5;
 /// The height `d₀` above the mean that no ground far away reaches, in root mean squares of heights about it.
 const HIGHEST: f32 = 2.5;
 
-/// Most by which ground beyond the border stands off the border's height, as a share of that: peaks on the border would
-/// become spikes.
-const NEAR: f32 = 0.4;
+/// Most by which ground beyond the border rises above the border's height and sinks below it, as shares of that: peaks on
+/// the border would become spikes, and ground that rises from a border of one height would be an island in a trench.
+const NEAR: [f32; 2] = [0.4, 0.08];
+
+/// Rise of a level of water from the border inward, in cells, with which two thirds of what it has of the level at the border
+/// are lost: it is that of another lake, or lies below dry ground that rises.
+const OTHER_LAKE: f32 = 0.25;
 
 /// The ground around a landscape.
 #[derive(Clone, Debug)]
@@ -186,7 +190,7 @@ impl Surroundings {
             return [far(), share];
         }
         let edge = bed.at(border);
-        let near = edge + held(edge - bed.at(self.mirrored(place).0), NEAR * self.highest)[0];
+        let near = edge + self.held(edge - bed.at(self.mirrored(place).0))[0];
         [if share > 0.0 { near + (far() - near) * share } else { near }, share]
     }
 
@@ -198,7 +202,7 @@ impl Surroundings {
         let (edge, within, there) =
             (bed.with_slope(border), bed.with_slope(mirrored), bed.with_slope(turned));
         let ([height, uneven], swings) = self.far_at(place);
-        let [off, kept] = held(edge[0] - within[0], NEAR * self.highest);
+        let [off, kept] = self.held(edge[0] - within[0]);
         let near = edge[0] + off;
         let [unlike, steep] = lowered(there[0] - self.mean, self.highest);
         let far = height + uneven * unlike;
@@ -226,7 +230,7 @@ impl Surroundings {
     }
 
     /// Level of the water at a place beyond the border, for that of the landscape, and the height of the ground there and how
-    /// much of the border is left behind.
+    /// much of the border is left behind. A lake at the border goes on beyond it; one within does not stand there again.
     pub(super) fn level(
         &self,
         level: &Surface,
@@ -234,12 +238,22 @@ impl Surroundings {
         place: [f32; 2],
         cell: f32,
     ) -> f32 {
-        let far = self.sea.unwrap_or(height - cell);
+        let dry = height - cell;
+        let far = self.sea.unwrap_or(dry);
         if share >= 1.0 {
             return far;
         }
-        let near = level.at(self.mirrored(place).0);
-        near + (far - near) * share
+        let within = level.at(self.mirrored(place).0);
+        let border = [0, 1].map(|axis| place[axis].clamp(0.5, self.cells[axis] + 0.5));
+        let same = libm::expf(-(within - level.at(border)).abs() / (OTHER_LAKE * cell));
+        let near = mix_of([dry, within], same).max(self.sea.unwrap_or(f32::MIN));
+        mix_of([near, far], share)
+    }
+
+    /// How far ground beyond the border stands off the border's height, where it would by so much, and how much of its
+    /// slope is left.
+    fn held(&self, off: f32) -> [f32; 2] {
+        held(off, self.highest * if off < 0.0 { NEAR[1] } else { NEAR[0] })
     }
 
     /// What rivers keep of their width there.
@@ -270,6 +284,10 @@ impl Surroundings {
     }
 }
 
+fn mix_of([from, to]: [f32; 2], share: f32) -> f32 {
+    from + (to - from) * share
+}
+
 /// A height off another that comes no nearer than to `most`, above and below, and how much of its slope is left.
 fn held(off: f32, most: f32) -> [f32; 2] {
     let lower = 1.0 + off.abs() / most;
@@ -283,102 +301,4 @@ fn lowered(unlike: f32, highest: f32) -> [f32; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use weald_core::grid::{Field, Size};
-    use weald_core::random::{hash2, unit as uniform};
-
-    fn ground(height: impl FnMut(usize, usize) -> f32) -> Surface {
-        Surface::new(&Field::from_function(Size::new(60, 40).expect("small"), height))
-    }
-
-    fn hills(x: usize, y: usize) -> f32 {
-        20.0 * (0.2 * x as f32).sin() * (0.17 * y as f32).cos()
-            + 3.0 * uniform(hash2(5, x as i64, y as i64)) as f32
-    }
-
-    #[test]
-    fn the_ground_goes_on_over_the_border_in_height_and_slope() {
-        let bed = ground(hills);
-        let around = Surroundings::new(&bed, None);
-        for step in 0..200 {
-            let along = 0.5 + 40.0 * step as f32 / 200.0;
-            for border in [[0.5, along], [60.5, along], [0.5 + 1.5 * (along - 0.5), 40.5]] {
-                let (inside, outside) = (bed.with_slope(border), around.at(&bed, border).surface);
-                for (a, b) in inside.into_iter().zip(outside) {
-                    assert!((a - b).abs() < 2e-2, "{border:?}: {inside:?} and {outside:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_lone_mountain_does_not_stand_again_around_itself_and_even_hills_do() {
-        let highest = |bed: &Surface| {
-            let around = Surroundings::new(bed, None);
-            let places =
-                (0..4000).map(|at| [0, 1].map(|seed| 600.0 * uniform(hash2(seed, at, 4)) as f32 - 300.0));
-            let far = places.filter(|place| around.leaving(*place).share == 1.0);
-            far.map(|place| around.at(bed, place).surface[0]).fold(f32::MIN, f32::max)
-        };
-        let lone = |x: usize, y: usize| (400.0 - 40.0 * (x as f32 - 30.0).hypot(y as f32 - 20.0)).max(0.0);
-        let [lone, hilly] = [highest(&ground(lone)), highest(&ground(hills))];
-        assert!(lone < 220.0, "{lone} m of 400");
-        assert!(hilly > 10.0, "{hilly} m of 23");
-    }
-
-    #[test]
-    fn the_rise_beyond_the_border_is_that_of_its_heights() {
-        let bed = ground(hills);
-        let around = Surroundings::new(&bed, None);
-        let height = |place: [f32; 2]| around.at(&bed, place).surface[0];
-        let mut compared = 0;
-        for step in 0..400 {
-            let place = [0, 1].map(|seed| 240.0 * uniform(hash2(seed, step, 3)) as f32 - 90.0);
-            if !around.is_beyond(place) {
-                continue;
-            }
-            let Beyond { surface: rise, share, .. } = around.at(&bed, place);
-            let [alone, left_behind] = around.height(&bed, place);
-            assert!(
-                (alone - rise[0]).abs() < 1e-3 && left_behind == share,
-                "{place:?}: {alone} m and {rise:?}"
-            );
-            let near = 0.02;
-            for axis in [0, 1] {
-                let moved = |by: f32| std::array::from_fn(|at| place[at] + if at == axis { by } else { 0.0 });
-                let expected = (height(moved(near)) - height(moved(-near))) / (2.0 * near);
-                assert!((rise[1 + axis] - expected).abs() < 0.1, "{place:?}: {rise:?} instead of {expected}");
-            }
-            compared += 1;
-        }
-        assert!(compared > 200);
-    }
-
-    #[test]
-    fn a_sea_goes_on_where_it_meets_the_border_and_land_where_land_does() {
-        // Land in the east, a sea floor in the west.
-        let bed = ground(|x, _| if x < 30 { -50.0 } else { 2.0 * (x - 30) as f32 });
-        let around = Surroundings::new(&bed, Some(0.0));
-        let far = |x: f32| around.at(&bed, [x, 20.0]);
-        for away in [15.0, 40.0, 200.0] {
-            assert!(far(-away).surface[0] < 0.0, "{:?}", far(-away));
-        }
-        assert!(far(75.0).surface[0] > 0.0 && around.far_at([400.0, 20.0]).0[0] > 0.0);
-        assert!((0..DIRECTIONS).all(|at| around.far[at][0] <= around.bounds[1]));
-    }
-
-    #[test]
-    fn no_height_is_beyond_its_bounds() {
-        let bed = ground(hills);
-        for sea in [None, Some(-5.0)] {
-            let around = Surroundings::new(&bed, sea);
-            let [low, high] = around.bounds;
-            for step in 0..2000 {
-                let place = [0, 1].map(|seed| 600.0 * uniform(hash2(seed, step, 9)) as f32 - 270.0);
-                let height = around.at(&bed, place).surface[0];
-                assert!(height >= low - 1e-3 && height <= high + 1e-3, "{height} outside {low} to {high}");
-            }
-        }
-    }
-}
+mod tests;

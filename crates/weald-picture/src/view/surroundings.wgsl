@@ -76,8 +76,13 @@ fn far_at(place: vec2<f32>) -> Far {
     return Far(mix(one, other, t * t * (3.0 - 2.0 * t)), -away.y * change, away.x * change);
 }
 
-// Most by which ground beyond the border stands off the border's height, as a share of the greatest height above the mean.
-const NEAR = 0.4;
+// Most by which ground beyond the border rises above the border's height and sinks below it, as shares of the greatest height
+// above the mean.
+const NEAR_ABOVE = 0.4;
+const NEAR_BELOW = 0.08;
+
+// Rise of a level of water from the border inward, in cells, with which it is that of another lake.
+const OTHER_LAKE = 0.25;
 
 // The ground at a place beyond the border.
 fn ground_beyond(place: vec2<f32>) -> Beyond {
@@ -100,7 +105,8 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let unlike = off / lower;
     let steep = 1.0 / (lower * lower);
     let off_edge = edge.x - within.x;
-    let held = 1.0 + abs(off_edge) / (NEAR * scene.far_highest.x);
+    let most = select(NEAR_ABOVE, NEAR_BELOW, off_edge < 0.0) * scene.far_highest.x;
+    let held = 1.0 + abs(off_edge) / most;
     let near = edge.x + off_edge / held;
     let kept = 1.0 / (held * held);
     let far = around.ground.x + uneven * unlike;
@@ -124,7 +130,15 @@ fn level_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
     }
     let dry = beyond.surface.x - scene.scale.w;
     let far = select(dry, scene.around.y, scene.around.y > -1e29);
-    return mix(spline_at(level, mirrored_within(place).place), far, beyond.share);
+    var near = far;
+    // A loop of one turn or none: software would look up both levels in a condition.
+    for (var turn = 0u; turn < select(0u, 1u, beyond.share < 1.0); turn++) {
+        let within = spline_at(level, mirrored_within(place).place);
+        let off = abs(within - spline_at(level, nearest_within(place)));
+        // Without a sea, `scene.around.y` lies far below all ground.
+        near = max(mix(dry, within, exp(-off / (OTHER_LAKE * scene.scale.w))), scene.around.y);
+    }
+    return mix(near, far, beyond.share);
 }
 
 // What rivers keep of their width there.
