@@ -347,7 +347,7 @@ fn check(
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
     let (file, named) = (file.to_owned(), named.into_inner());
     let (ground, seed, sea_level) = (start.ground?, start.seed, start.sea_level);
-    let begins_on_finest = finest_ground::set_out(&ground, &mut steps, &materials);
+    let begins_on_finest = finest_ground::run_on_finest(&ground, &mut steps, &materials);
     Ok(Recipe {
         file,
         ground,

@@ -17,18 +17,23 @@ use weald_land::combine::resample::Resample;
 
 /// Lets the steps that shape the ground run on the finest grid, and says whether there are any. Where a material comes from a
 /// file, which has the landscape's cells, and where there is no finer grid, there are none.
-pub(super) fn set_out(ground: &Ground, steps: &mut Vec<Planned>, materials: &[PlannedMaterial]) -> bool {
+pub(super) fn run_on_finest(
+    ground: &Ground,
+    steps: &mut Vec<Planned>,
+    materials: &[PlannedMaterial],
+) -> bool {
     let &Ground::Empty { size, finest: Some(finest), .. } = ground else { return false };
     let count = steps.iter().take_while(|planned| planned.step.shapes_ground()).count();
-    if finest.columns <= size.columns || materials.iter().any(|planned| planned.file.is_some()) {
+    let has_files = materials.iter().any(|planned| planned.file.is_some());
+    if count == 0 || finest.columns <= size.columns || has_files {
         return false;
     }
-    let Some(last) = count.checked_sub(1) else { return false };
-    let rest = steps.split_off(last);
-    steps.extend(rest.into_iter().enumerate().map(|(number, planned)| match number {
-        0 => Planned { step: Box::new(ThenMeans { step: planned.step, size }), ..planned },
-        _ => planned,
-    }));
+    let others = steps.split_off(count);
+    let last = steps.pop().map(|last| {
+        let step = Box::new(ThenMeans { step: last.step, size });
+        Planned { step, ..last }
+    });
+    steps.extend(last.into_iter().chain(others));
     true
 }
 
