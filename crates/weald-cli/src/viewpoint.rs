@@ -138,7 +138,7 @@ fn camera_path(files: &RenderFiles, scene: &LitScene) -> Result<Vec<Camera>, Fai
 fn above_ground(camera: Camera, frame: usize, scene: &LitScene) -> Result<Camera, Failure> {
     let [east, north, height] = camera.eye;
     let place = [f64::from(east), f64::from(-north)];
-    let height_above = height - scene.top_at(place).unwrap_or(scene.base());
+    let height_above = height - scene.above_ground(place, 0.0)[2];
     if height_above >= MIN_CLEARANCE {
         return Ok(camera);
     }

@@ -75,10 +75,6 @@ impl<T: Generator> Step for T {
         self.contradictions()
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn scratch_per_cell(&self, _: &BTreeSet<String>) -> Result<u64, String> {
         let one = Domain::new(Size { columns: 1, rows: 1 }, 1.0);
         let by_rows = self.fill_rows(&one, 0, 0..1).map(|_| 0);

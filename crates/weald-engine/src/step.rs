@@ -107,13 +107,6 @@ pub trait Step: Debug + Send + Sync {
         Some(iterations)
     }
 
-    /// Whether it shapes ground by places in metres alone: then the steps before the first of another kind run on the
-    /// [finest grid](Domain::finest), where there is one, and what they have made is averaged to the landscape's cells. A
-    /// mean of products is no product of means: made on their own cells, a coarse and a fine landscape would be two.
-    fn shapes_ground(&self) -> bool {
-        false
-    }
-
     /// Columns and rows after the step, where it changes them.
     fn resized(&self) -> Option<(u32, u32)> {
         None

@@ -120,9 +120,8 @@ fn headings(routed: &Routed) -> impl Iterator<Item = f64> {
     });
     starts.filter_map(move |start| {
         let end = (0..FINER * LENGTH).try_fold(start, |cell, _| directions.downstream(cell))?;
-        let step =
-            |of: fn(usize, usize) -> usize| of(end, size.columns) as f64 - of(start, size.columns) as f64;
-        let (east, south) = (step(|cell, columns| cell % columns), step(|cell, columns| cell / columns));
+        let [begin, end] = [start, end].map(|cell| [cell % size.columns, cell / size.columns]);
+        let [east, south] = [0, 1].map(|axis| end[axis] as f64 - begin[axis] as f64);
         Some(libm::atan2(south, east).to_degrees())
     })
 }

@@ -50,10 +50,6 @@ impl Step for Add {
         written(self.into.as_ref(), &self.layer)
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn reach(&self) -> Option<Reach> {
         Some(Reach::default())
     }

@@ -51,10 +51,6 @@ impl Step for Blend {
         written(self.into.as_ref(), &self.layer)
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn reach(&self) -> Option<Reach> {
         Some(Reach::default())
     }

@@ -72,10 +72,6 @@ impl Step for Displace {
             .collect()
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let offset =
             |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();

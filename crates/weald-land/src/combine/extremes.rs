@@ -76,10 +76,6 @@ macro_rules! of_two {
                 written(self.into.as_ref(), &self.layer)
             }
 
-            fn shapes_ground(&self) -> bool {
-                true
-            }
-
             fn reach(&self) -> Option<Reach> {
                 Some(Reach::default())
             }

@@ -106,10 +106,6 @@ impl Step for Remap {
         broken.map(|(key, _, sentence)| Fault::of(key, sentence)).collect()
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn reach(&self) -> Option<Reach> {
         // Without it the range is that of the whole.
         (self.from.len() == 2).then(Reach::default)

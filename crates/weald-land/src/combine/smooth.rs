@@ -63,10 +63,6 @@ impl Step for Smooth {
         written(self.into.as_ref(), &self.layer)
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn reach(&self) -> Option<Reach> {
         // The radius in cells is rounded before it is multiplied.
         Some(Reach { metres: REACH * self.radius, cells: 1 })

@@ -97,10 +97,6 @@ impl Step for PaintedLayer {
         long.map(fault).collect()
     }
 
-    fn shapes_ground(&self) -> bool {
-        true
-    }
-
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let mut layer = match &self.of {
             Some(name) => landscape.field(&name.0)?.clone(),

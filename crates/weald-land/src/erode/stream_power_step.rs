@@ -103,9 +103,9 @@ parameters! {
         /// Longest cells of these grids. On the coarsest it is decided where rivers run: a landscape of any size that
         /// begins on the same one has the same rivers.
         coarsest: f64 = 100.0, range 0.001..=100_000.0, unit "m";
-        /// Length of the cells on which the landscape is settled, so that it is one at every size: grids with such cells and
-        /// coarser ones have the time that they have where there are no finer ones, and the same rivers; each finer one only
-        /// adds detail, in a hundredth of the time. By default every grid has its eighth.
+        /// Length of the cells on which the landscape takes its form, so that it is the same at every size: grids of such and
+        /// of longer cells share the time as if there were no finer ones, and each finer one adds detail in a hundredth of the
+        /// time. Default: the shares that `levels` names.
         settled: Option<f64> = None, range 0.001..=100_000.0, unit "m";
         /// Layer to erode.
         layer: LayerName = LayerName::of("height");

@@ -244,16 +244,18 @@ impl Surroundings {
             return far;
         }
         let within = level.at(self.mirrored(place).0);
-        let border = [0, 1].map(|axis| place[axis].clamp(0.5, self.cells[axis] + 0.5));
-        let same = libm::expf(-(within - level.at(border)).abs() / (OTHER_LAKE * cell));
-        let near = mix_of([dry, within], same).max(self.sea.unwrap_or(f32::MIN));
-        mix_of([near, far], share)
+        let off = (within - level.at(self.leaving(place).border)).abs();
+        let same = libm::expf(-off / (OTHER_LAKE * cell));
+        let near = (dry + (within - dry) * same).max(self.sea.unwrap_or(f32::MIN));
+        near + (far - near) * share
     }
 
     /// How far ground beyond the border stands off the border's height, where it would by so much, and how much of its
     /// slope is left.
     fn held(&self, off: f32) -> [f32; 2] {
-        held(off, self.highest * if off < 0.0 { NEAR[1] } else { NEAR[0] })
+        let most = self.highest * if off < 0.0 { NEAR[1] } else { NEAR[0] };
+        let lower = 1.0 + off.abs() / most;
+        [off / lower, 1.0 / (lower * lower)]
     }
 
     /// What rivers keep of their width there.
@@ -282,16 +284,6 @@ impl Surroundings {
         let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
         mix(radiance, farthest, 1.0 - libm::expf(-square))
     }
-}
-
-fn mix_of([from, to]: [f32; 2], share: f32) -> f32 {
-    from + (to - from) * share
-}
-
-/// A height off another that comes no nearer than to `most`, above and below, and how much of its slope is left.
-fn held(off: f32, most: f32) -> [f32; 2] {
-    let lower = 1.0 + off.abs() / most;
-    [off / lower, 1.0 / (lower * lower)]
 }
 
 /// How far ground stands off the mean that is so far off it in the landscape, and how much of its slope is left.

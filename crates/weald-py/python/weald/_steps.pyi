@@ -1073,7 +1073,7 @@ class Steps:
         coarsest: number, 0.001 to 100000 m; default 100.0
             Longest cells of these grids. On the coarsest it is decided where rivers run: a landscape of any size that begins on the same one has the same rivers.
         settled: number, 0.001 to 100000 m
-            Length of the cells on which the landscape is settled, so that it is one at every size: grids with such cells and coarser ones have the time that they have where there are no finer ones, and the same rivers; each finer one only adds detail, in a hundredth of the time. By default every grid has its eighth.
+            Length of the cells on which the landscape takes its form, so that it is the same at every size: grids of such and of longer cells share the time as if there were no finer ones, and each finer one adds detail in a hundredth of the time. Default: the shares that `levels` names.
         layer: layer name; default "height"
             Layer to erode.
         """

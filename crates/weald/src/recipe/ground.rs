@@ -6,7 +6,6 @@ use super::layer_file::LayerFile;
 use super::layer_output::placeless;
 use super::plan::{FractalSource, Ground, PlannedFractal, Recipe};
 use crate::ground_file;
-use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
@@ -21,8 +20,7 @@ use weald_plants::ifs::{Ifs, flame};
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
         Ground::Empty { size, cell, finest } => {
-            let own = || Domain { finest: *finest, ..Domain::new(*size, *cell) };
-            let first = recipe.first_grid().unwrap_or_else(own);
+            let first = recipe.first_grid(*size, *cell, *finest);
             // A recipe that was read for a run out of core may be larger.
             Size::new(first.size.columns, first.size.rows)?;
             (Landscape::new(first), Vec::new())

@@ -65,8 +65,8 @@ pub struct Recipe {
     pub steps: Vec<Planned>,
     /// What is written at the end.
     pub outputs: Vec<Output>,
-    /// Whether its first steps run on the finest grid.
-    begins_on_finest: bool,
+    /// How many of its first steps run on the finest grid.
+    on_finest: usize,
     /// Files that it names, with the line of the key.
     named: Vec<(PathBuf, usize)>,
     text: String,
@@ -166,27 +166,29 @@ impl Recipe {
 
     /// Checks what depends on the grid, where the recipe says it.
     fn check_on_its_grid(&self, may_be_larger_than_memory: bool) -> Result<(), Error> {
-        let Some(first) = self.first_grid() else { return Ok(()) };
+        let Ground::Empty { size, cell, finest } = self.ground else { return Ok(()) };
+        let first = self.first_grid(size, cell, finest);
         if !may_be_larger_than_memory {
             Size::new(first.size.columns, first.size.rows)?;
         }
         self.check_on(&first)
     }
 
-    /// The grid that the first step finds, where no file says it.
-    pub(super) fn first_grid(&self) -> Option<Domain> {
-        let Ground::Empty { size, cell, finest } = self.ground else { return None };
-        let own = || Domain { finest, ..Domain::new(size, cell) };
-        let finest = self.begins_on_finest.then(|| finest_ground::grid(&self.ground)).flatten();
-        Some(Domain { sea_level: self.sea_level, ..finest.unwrap_or_else(own) })
+    /// The grid that the first step finds, for cells of a length in metres and the finest grid.
+    pub(super) fn first_grid(&self, size: Size, cell: f64, finest: Option<Size>) -> Domain {
+        let first = match finest {
+            Some(finest) if self.on_finest > 0 => finest_ground::grid(size, cell, finest),
+            _ => Domain { finest, ..Domain::new(size, cell) },
+        };
+        Domain { sea_level: self.sea_level, ..first }
     }
 
-    /// The landscape on the recipe's grid, whatever grid a step has left it on.
-    pub(super) fn on_own_grid(&self, landscape: Landscape) -> Result<Landscape, Error> {
-        if self.begins_on_finest {
-            finest_ground::on_own_grid(&self.ground, landscape)
-        } else {
+    /// The landscape after so many steps on the recipe's grid, whatever grid they have left it on.
+    pub(super) fn on_own_grid(&self, steps: usize, landscape: Landscape) -> Result<Landscape, Error> {
+        if steps >= self.on_finest {
             Ok(landscape)
+        } else {
+            finest_ground::on_own_grid(&self.ground, landscape)
         }
     }
 
@@ -347,18 +349,6 @@ fn check(
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
     let (file, named) = (file.to_owned(), named.into_inner());
     let (ground, seed, sea_level) = (start.ground?, start.seed, start.sea_level);
-    let begins_on_finest = finest_ground::run_on_finest(&ground, &mut steps, &materials);
-    Ok(Recipe {
-        file,
-        ground,
-        sea_level,
-        seed,
-        materials,
-        fractals,
-        steps,
-        outputs,
-        begins_on_finest,
-        named,
-        text,
-    })
+    let on_finest = finest_ground::run_on_finest(&ground, &mut steps, &materials);
+    Ok(Recipe { file, ground, sea_level, seed, materials, fractals, steps, outputs, on_finest, named, text })
 }

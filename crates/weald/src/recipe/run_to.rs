@@ -44,7 +44,7 @@ impl Recipe {
             progress.step(number + 1, self.steps.len(), planned.entry.name);
             step((self, planned), &mut landscape, (engine, kept.as_mut()), progress)?;
         }
-        self.on_own_grid(landscape)
+        self.on_own_grid(steps, landscape)
     }
 }
 

@@ -296,6 +296,13 @@ fn all_steps_that_shape_ground_run_on_the_finest_grid_and_the_landscape_has_thei
 }
 
 #[test]
+fn a_landscape_that_is_resampled_to_as_many_cells_as_the_finest_grid_has_keeps_them() {
+    let recipe = recipe_of(&shaped("[[step]]\ndo = \"resample\"\nsize = [96, 64]"));
+    let land = recipe.landscape_after(7, &Engine::Cpu, None, &Silent);
+    assert_eq!(land.map(|land| land.domain.size.columns).ok(), Some(96));
+}
+
+#[test]
 fn a_landscape_in_the_middle_of_such_steps_is_seen_on_its_own_grid_and_kept_results_are_not_mixed_up() {
     let cache = Arc::new(Cache::in_memory(1 << 26).keeping_all());
     let after = |text: &str, steps: usize| {
@@ -317,20 +324,6 @@ fn a_landscape_in_the_middle_of_such_steps_is_seen_on_its_own_grid_and_kept_resu
     assert_eq!(steep(&kept.unwrap_or_else(|error| panic!("{error}"))), steep(&own));
     assert_eq!(after(&whole, 6), last);
     assert_eq!(own.field("height").expect("written"), &first);
-}
-
-#[test]
-fn steps_that_count_cells_or_name_kinds_do_not_run_on_the_finest_grid() {
-    for entry in CATALOG {
-        let table = source::parse("recipe", "").expect("empty");
-        let step = (entry.read)(&table, &mut Diagnostics::default());
-        let shapes = match entry.stage {
-            Stage::Generate => true,
-            Stage::Combine => !["resample", "layers", "top-material"].contains(&entry.name),
-            _ => false,
-        };
-        assert_eq!(step.shapes_ground(), shapes, "{}", entry.name);
-    }
 }
 
 proptest! {

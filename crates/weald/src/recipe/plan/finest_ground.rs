@@ -12,21 +12,22 @@ use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameter::{Fault, Sides};
 use weald_engine::Job;
-use weald_engine::step::{Layered, Outcome, Step, Work};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 use weald_land::combine::resample::Resample;
 
-/// Lets the steps that shape the ground run on the finest grid, and says whether there are any. Where a material comes from a
-/// file, which has the landscape's cells, and where there is no finer grid, there are none.
+/// How many steps run on the finest grid, of those that a recipe begins with: none where there is no finer one, or where a
+/// material comes from a file, which has the landscape's cells. The last of them is given the means to take.
 pub(super) fn run_on_finest(
     ground: &Ground,
     steps: &mut Vec<Planned>,
     materials: &[PlannedMaterial],
-) -> bool {
-    let &Ground::Empty { size, finest: Some(finest), .. } = ground else { return false };
-    let count = steps.iter().take_while(|planned| planned.step.shapes_ground()).count();
+) -> usize {
+    let &Ground::Empty { size, finest: Some(finest), .. } = ground else { return 0 };
+    let count =
+        steps.iter().take_while(|planned| shapes_ground(planned.entry, planned.step.as_ref())).count();
     let has_files = materials.iter().any(|planned| planned.file.is_some());
     if count == 0 || finest.columns <= size.columns || has_files {
-        return false;
+        return 0;
     }
     let others = steps.split_off(count);
     let last = steps.pop().map(|last| {
@@ -34,25 +35,29 @@ pub(super) fn run_on_finest(
         Planned { step, ..last }
     });
     steps.extend(last.into_iter().chain(others));
-    true
+    count
 }
 
-/// The grid of such ground.
-pub(super) fn grid(ground: &Ground) -> Option<Domain> {
-    let &Ground::Empty { size, cell, finest } = ground else { return None };
-    let finest = finest?;
+/// Whether a step makes or combines layers by places in metres alone. Numbers of materials have no mean, and a step that
+/// changes the grid is asked for one. A mean of products is no product of means: made on their own cells, a coarse and a
+/// fine landscape would be two.
+fn shapes_ground(entry: &Entry, step: &dyn Step) -> bool {
+    let makes = matches!(entry.stage, Stage::Generate | Stage::Combine);
+    makes && step.resized().is_none() && step.layered() == Layered::Never
+}
+
+/// The finest grid over ground of so many cells of a length in metres.
+pub(super) fn grid(size: Size, cell: f64, finest: Size) -> Domain {
     let cell = cell * size.columns as f64 / finest.columns as f64;
-    Some(Domain { finest: Some(finest), ..Domain::new(finest, cell) })
+    Domain { finest: Some(finest), ..Domain::new(finest, cell) }
 }
 
-/// The landscape as it is on the grid of its recipe, where it still is on the finest.
+/// A landscape brought from the finest grid to that of its recipe.
 ///
 /// # Errors
 /// None but for grids that do not go together, which the recipe has been checked for.
 pub(super) fn on_own_grid(ground: &Ground, mut landscape: Landscape) -> Result<Landscape, Error> {
-    if let &Ground::Empty { size, finest: Some(finest), .. } = ground
-        && landscape.domain.size == finest
-    {
+    if let &Ground::Empty { size, .. } = ground {
         to(size).run(&mut landscape, &Job::unwatched(0))?;
     }
     Ok(landscape)
@@ -131,5 +136,27 @@ impl Step for ThenMeans {
         let outcome = self.step.run(landscape, job)?;
         to(self.size).run(landscape, job)?;
         Ok(outcome)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::catalog::CATALOG;
+    use weald_core::parameter::Diagnostics;
+    use weald_core::source;
+
+    #[test]
+    fn steps_that_count_cells_or_name_kinds_do_not_run_on_the_finest_grid() {
+        for entry in CATALOG {
+            let table = source::parse("recipe", "").expect("empty");
+            let step = (entry.read)(&table, &mut Diagnostics::default());
+            let expected = match entry.stage {
+                Stage::Generate => true,
+                Stage::Combine => !["resample", "layers", "top-material"].contains(&entry.name),
+                _ => false,
+            };
+            assert_eq!(shapes_ground(entry, step.as_ref()), expected, "{}", entry.name);
+        }
     }
 }
