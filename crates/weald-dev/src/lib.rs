@@ -12,6 +12,6 @@ mod step_pictures;
 pub use coding::{Coded, code, decode};
 pub use flip::{Flip, flip};
 pub use keep::{Kept, VISIBLE, keep};
-pub use page::{PageFile, page};
+pub use page::{GREATEST_EFFORT, PageFile, page};
 pub use renew::{Renewed, renew};
 pub use step_pictures::step_pictures;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use weald::Error;
-use weald_dev::{PageFile, Renewed, keep, page, renew, step_pictures};
+use weald_dev::{GREATEST_EFFORT, PageFile, Renewed, keep, page, renew, step_pictures};
 
 /// Renews committed pictures: those that look different, as WebP
 #[derive(Debug, Parser)]
@@ -50,6 +50,9 @@ enum Command {
         /// Folder of the page
         #[arg(value_name = "DIR", default_value = "target/page")]
         into: PathBuf,
+        /// How hard to try to make it small: the greatest effort takes a minute more than the least
+        #[arg(long, default_value_t = GREATEST_EFFORT, value_parser = clap::value_parser!(u32).range(..=i64::from(GREATEST_EFFORT)))]
+        effort: u32,
     },
 }
 
@@ -77,8 +80,8 @@ fn run(Arguments { command, all }: &Arguments) -> Result<(), Error> {
             println!("{}: {} steps", into.display(), step_pictures(into)?);
             Ok(())
         }
-        Command::Web { into } => {
-            let files = page(into)?;
+        Command::Web { into, effort } => {
+            let files = page(into, *effort)?;
             for file in &files {
                 println!("{:>10} {:>10} {}", file.bytes, file.packed, file.name);
             }

@@ -14,8 +14,8 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// Settings of the build, and the folder that cargo has for it.
 const PROFILE: &str = "web";
 
-/// Brotli's greatest effort and largest window.
-const QUALITY: u32 = 11;
+/// Brotli's greatest effort, and its largest window.
+pub const GREATEST_EFFORT: u32 = 11;
 const WINDOW: u32 = 24;
 
 /// A file of the page, and its bytes as it is and by Brotli.
@@ -29,11 +29,11 @@ pub struct PageFile {
     pub packed: usize,
 }
 
-/// Builds the page into a folder, and gives its files.
+/// Builds the page into a folder, packed with an effort from 0 to [`GREATEST_EFFORT`], and gives its files.
 ///
 /// # Errors
 /// [`Error::Run`] where the compiler fails or a file cannot be written.
-pub fn page(into: &Path) -> Result<Vec<PageFile>, Error> {
+pub fn page(into: &Path, effort: u32) -> Result<Vec<PageFile>, Error> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let module = built(&root)?;
     fs::create_dir_all(into).map_err(|cause| Error::write(into, &cause))?;
@@ -48,7 +48,7 @@ pub fn page(into: &Path) -> Result<Vec<PageFile>, Error> {
     }
     let is_packed = |name: &String| Path::new(name).extension().is_some_and(|extension| extension == "br");
     let names = files_of(into)?.into_iter().filter(|name| !is_packed(name));
-    names.map(|name| packed(into, name)).collect()
+    names.map(|name| packed(into, name, effort)).collect()
 }
 
 /// Has cargo build the module.
@@ -84,11 +84,11 @@ fn files_of(folder: &Path) -> Result<Vec<String>, Error> {
 }
 
 /// Puts a packed copy beside a file.
-fn packed(folder: &Path, name: String) -> Result<PageFile, Error> {
+fn packed(folder: &Path, name: String, effort: u32) -> Result<PageFile, Error> {
     let (path, beside) = (folder.join(&name), folder.join(format!("{name}.br")));
     let unread = |cause: std::io::Error| Error::Run(format!("{}: {cause}", path.display()));
     let bytes = fs::read(&path).map_err(unread)?;
-    let mut writer = brotli::CompressorWriter::new(Vec::new(), 1 << 16, QUALITY, WINDOW);
+    let mut writer = brotli::CompressorWriter::new(Vec::new(), 1 << 16, effort, WINDOW);
     writer.write_all(&bytes).and_then(|()| writer.flush()).map_err(unread)?;
     let packed = writer.into_inner();
     fs::write(&beside, &packed).map_err(|cause| Error::write(&beside, &cause))?;

@@ -8,6 +8,7 @@ mod layers;
 mod loops;
 mod made_up;
 mod names;
+mod shaders;
 mod steps_have_examples;
 mod tokens;
 mod words;
