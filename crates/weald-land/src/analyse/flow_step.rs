@@ -103,7 +103,7 @@ impl Step for FlowStep {
     }
 
     fn bytes_per_cell(&self) -> u64 {
-        24
+        28
     }
 
     fn scratch_per_cell(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
@@ -122,7 +122,10 @@ impl Step for FlowStep {
         let ground = landscape.field(&self.of.0)?;
         let routed =
             route_watched(ground, domain.valid.as_ref(), &self.routing(domain), &mut || stages.passed())?;
-        let areas = scaled(size, &self.sums(landscape, &routed, None), area);
+        let areas = match (&routed.upslope_cells, self.method) {
+            (Some(cells), Method::D8) => scaled(size, cells, area),
+            _ => scaled(size, &self.sums(landscape, &routed, None), area),
+        };
         stages.passed()?;
         let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let discharge = weight.map(|runoff| {

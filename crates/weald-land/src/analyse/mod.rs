@@ -54,7 +54,7 @@ fn ensure_finite(landscape: &Landscape, name: &str) -> Result<(), Error> {
 }
 
 /// Sums of each cell as a layer, in another unit.
-fn scaled(size: Size, sums: &[f64], unit: f64) -> Field {
-    let values = sums.par_iter().with_min_len(CELLS_PER_TASK).map(|sum| (sum * unit) as f32);
+fn scaled<T: Copy + Into<f64> + Sync>(size: Size, sums: &[T], unit: f64) -> Field {
+    let values = sums.par_iter().with_min_len(CELLS_PER_TASK).map(|&sum| (sum.into() * unit) as f32);
     Field::from_values(size, values.collect())
 }

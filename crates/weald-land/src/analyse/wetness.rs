@@ -150,7 +150,7 @@ impl Outflow {
     }
 
     fn of(flow: &MultipleFlow<'_>, cell: usize) -> Self {
-        let Routed { surface, directions } = flow.routed;
+        let Routed { surface, directions, .. } = flow.routed;
         if directions.downstream(cell).is_none() {
             // Water leaves straight over the edge.
             return Self { step: 1.0, fall: 0.0 };

@@ -78,10 +78,21 @@ const PASSES: usize = 6;
 /// Part of the step between neighbours that goes in a pass. Stable up to 3/8.
 const MOST_WORN: f64 = 0.3;
 
-/// How the detail that a coarser level does not have has worn while ground changed by so many metres there: not where
-/// it has hardly changed, and wholly where it has changed by much more than the detail is high. It spreads along edges,
-/// so that no volume is lost. Without it, the bumps of the ground of the start would stand anew in valleys of rivers.
-pub(crate) fn worn_detail(start: &Field, change: &Field) -> Field {
+/// How the detail that a coarser level does not have has worn while ground changed by so many metres there: wholly where
+/// that is much more than the detail is high. For landscapes that rose and were cut for millions of years, of whose start
+/// nothing is left.
+pub(crate) fn worn_by_change(start: &Field, change: &Field) -> Field {
+    worn_detail(start, |x, y| change.at(x, y).abs())
+}
+
+/// The same under deposits alone: what floods cut down keeps its detail. Without it bumps of the start would stand anew on
+/// fans; without any, smooth slopes of finer cells would be furrowed by rills side by side, along the axes of the grid.
+pub(crate) fn worn_by_deposits(start: &Field, change: &Field) -> Field {
+    worn_detail(start, |x, y| change.at(x, y).max(0.0))
+}
+
+/// How detail has worn where so many metres of change hide it. It spreads along edges, so that no volume is lost.
+fn worn_detail(start: &Field, hidden: impl Fn(usize, usize) -> f32) -> Field {
     let Size { columns, rows } = start.size();
     let coarse = mean(start, Size { columns: columns / 2, rows: rows / 2 }, 2);
     let smooth = refined(&coarse);
@@ -89,8 +100,8 @@ pub(crate) fn worn_detail(start: &Field, change: &Field) -> Field {
     let heights: f64 = detail.values().iter().map(|value| f64::from(value.abs())).sum();
     let typical = (heights / start.size().cells() as f64) as f32;
     let share = Field::from_function(start.size(), |x, y| {
-        let changed = change.at(x, y).abs();
-        if changed > 0.0 { changed / (changed + typical) } else { 0.0 }
+        let hidden = hidden(x, y);
+        if hidden > 0.0 { hidden / (hidden + typical) } else { 0.0 }
     });
     let worn = (0..PASSES).fold(detail.clone(), |detail, _| spread(&detail, &share));
     Field::from_function(start.size(), |x, y| worn.at(x, y) - detail.at(x, y))
@@ -233,23 +244,29 @@ mod tests {
     }
 
     #[test]
-    fn detail_wears_where_ground_has_changed_and_keeps_its_volume() {
+    fn detail_wears_where_ground_has_changed_or_deposits_lie_and_keeps_its_volume() {
         let size = Size { columns: 24, rows: 16 };
         let start = Field::from_function(size, |x, y| 8.0 * signed2(3, x as i64, y as i64) as f32 + x as f32);
         // The west has not changed, the east by much more than the detail is high.
-        let change = Field::from_function(size, |x, _| if x < 12 { 0.0 } else { -900.0 });
-        let worn = worn_detail(&start, &change);
-        let sum: f64 = worn.values().iter().map(|&value| f64::from(value)).sum();
-        assert!(sum.abs() < 1e-4, "{sum} m");
+        let east = |change: f32| Field::from_function(size, |x, _| if x < 12 { 0.0 } else { change });
+        let [cut, buried] = [-900.0, 900.0].map(east);
+        for worn in [worn_by_change(&start, &cut), worn_by_deposits(&start, &buried)] {
+            let sum: f64 = worn.values().iter().map(|&value| f64::from(value)).sum();
+            assert!(sum.abs() < 1e-4, "{sum} m");
+            assert!(
+                (0..10).all(|x| (0..16).all(|y| worn.at(x, y) == 0.0)),
+                "where nothing changed, nothing wears"
+            );
+            let rough = |share: f32| -> f64 {
+                let at = |x, y| f64::from(start.at(x, y) + share * worn.at(x, y));
+                let cells = (15..22).flat_map(|x| (2..13).map(move |y| (x, y)));
+                cells.map(|(x, y)| (at(x, y) - at(x, y + 1)).powi(2)).sum()
+            };
+            assert!(rough(1.0) < 0.3 * rough(0.0), "{} of {}", rough(1.0), rough(0.0));
+        }
         assert!(
-            (0..10).all(|x| (0..16).all(|y| worn.at(x, y) == 0.0)),
-            "where nothing changed, nothing wears"
+            worn_by_deposits(&start, &cut).values().iter().all(|&worn| worn == 0.0),
+            "what is cut keeps it"
         );
-        let rough = |share: f32| -> f64 {
-            let at = |x, y| f64::from(start.at(x, y) + share * worn.at(x, y));
-            let cells = (15..22).flat_map(|x| (2..13).map(move |y| (x, y)));
-            cells.map(|(x, y)| (at(x, y) - at(x, y + 1)).powi(2)).sum()
-        };
-        assert!(rough(1.0) < 0.3 * rough(0.0), "{} of {}", rough(1.0), rough(0.0));
     }
 }

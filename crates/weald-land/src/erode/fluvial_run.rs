@@ -164,7 +164,7 @@ impl Flood {
         let cell = working.cell as f32;
         let plane_of = |field: &Field| working.ringed(|x, y| field.at(x, y) / cell);
         if let Some(HandedDown { change, sediment, discharge, .. }) = handed {
-            let worn = levels::worn_detail(&working.start, change);
+            let worn = levels::worn_by_deposits(&working.start, change);
             let change = Field::from_function(change.size(), |x, y| change.at(x, y) + worn.at(x, y));
             rows.scatter(plane::CHANGE, &plane_of(&change));
             rows.scatter(plane::SEDIMENT, &working.lengths(sediment));

@@ -180,7 +180,7 @@ impl<'a> Level<'a> {
     fn heights_after(&self, change: Option<&Field>) -> Vec<f64> {
         let start = self.start.values().iter().map(|&start| f64::from(start));
         let Some(change) = change else { return start.collect() };
-        let worn = levels::worn_detail(self.start, change);
+        let worn = levels::worn_by_change(self.start, change);
         let changes = change.values().iter().zip(worn.values());
         start
             .zip(changes)

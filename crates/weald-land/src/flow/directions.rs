@@ -194,7 +194,8 @@ impl Directions {
 
     /// The codes as a layer.
     pub fn layer(&self) -> Field {
-        Field::from_values(self.size, self.codes.iter().map(|&code| f32::from(code)).collect())
+        let codes = self.codes.par_iter().with_min_len(CELLS_PER_TASK);
+        Field::from_values(self.size, codes.map(|&code| f32::from(code)).collect())
     }
 
     /// A cell from which water comes to no end.

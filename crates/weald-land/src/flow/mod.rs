@@ -14,6 +14,7 @@
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
 //! | `flats` | directions over flat ground |
+//! | `fall_lines` | the two neighbours beside the fall line of each cell |
 //! | `least_deviation` | directions along paths that stay near the fall line |
 //! | `codes` | directions in the numbers of other programs |
 //! | `accumulate`, `multiple` | upslope areas, along D8 or shared among all lower neighbours |
@@ -32,6 +33,7 @@ mod codes;
 mod descent;
 pub mod directions;
 pub(crate) mod disjoint_sets;
+mod fall_lines;
 mod fill;
 mod flats;
 mod least_deviation;
@@ -110,6 +112,9 @@ pub struct Routed {
     pub surface: Field,
     /// Where each cell drains to. Every path ends at an outlet or in the sea.
     pub directions: Directions,
+    /// The cells above each along those directions, and itself, where they were counted on the way: by [`accumulate`] without
+    /// weights it is the same.
+    pub upslope_cells: Option<Vec<u32>>,
 }
 
 /// Leads water over the ground. Cells without data take part in nothing; water leaves beside them as it does
@@ -142,14 +147,19 @@ pub fn route_watched(
     let mut descent = Descent::of(&surface);
     passed()?;
     flats::resolve(&surface, &mut descent);
-    if routing.directions == DirectionRule::LeastDeviation {
-        least_deviation::lead(&surface, &mut descent);
-    }
+    let paths = match routing.directions {
+        DirectionRule::Steepest => None,
+        DirectionRule::LeastDeviation => Some(least_deviation::follow(&surface, &descent.codes)),
+    };
     passed()?;
-    let codes = surface.inner(&descent.codes, |cell, code| match code {
+    let codes = surface.inner(&descent.codes, |cell, code| match (code, &paths) {
         _ if surface.is_sea(cell) => SEA,
-        code if code <= 8 => code,
+        (1..=8, Some(paths)) => paths.code(cell),
+        (1..=8, None) => code,
         _ => OUTLET,
+    });
+    let upslope_cells = paths.map(|paths| {
+        surface.inner(&descent.codes, |cell, _| if surface.has_data(cell) { paths.cells(cell) } else { 0 })
     });
     let filled = surface.inner(&surface.level, |_, level| level);
     let mut filled = Field::from_values(height.size(), filled);
@@ -159,7 +169,7 @@ pub fn route_watched(
         }
     }
     passed()?;
-    Ok(Routed { surface: filled, directions: Directions::new(height.size(), codes) })
+    Ok(Routed { surface: filled, directions: Directions::new(height.size(), codes), upslope_cells })
 }
 
 /// Takes the depressions out of a surface, in three stages.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::basins::Basins;
 use super::disjoint_sets::DisjointSets;
-use super::surface::Surface;
+use super::surface::{NO_DATA, Surface};
 
 /// Rows of a band.
 const BAND: usize = 32;
@@ -68,8 +68,11 @@ impl Finder<'_> {
         let mut found = Found::default();
         for y in first..=last {
             let start = y * self.surface.stride + 1;
-            for cell in start..start + self.surface.size.columns {
-                self.beside(cell, &mut found);
+            let cells = start..start + self.surface.size.columns;
+            let is_inland = self.is_inland(y);
+            for cell in cells.clone() {
+                let at_a_side = cell == cells.start || cell + 1 == cells.end;
+                self.beside(cell, !is_inland || at_a_side, &mut found);
             }
         }
         found.saddles.sort_unstable();
@@ -81,8 +84,15 @@ impl Finder<'_> {
         kept
     }
 
-    /// The saddles from a cell to its eastern and southern neighbours, and out.
-    fn beside(&self, cell: usize, found: &mut Found) {
+    /// Whether no cell of a row has one without data beside it, but for the first and the last.
+    fn is_inland(&self, y: usize) -> bool {
+        let Surface { size, stride, level, .. } = self.surface;
+        let mut rows = (y - 1..=y + 1).map(|y| &level[y * stride + 1..][..size.columns]);
+        rows.all(|row| row.iter().fold(f32::NEG_INFINITY, |most, &level| most.max(level)) != NO_DATA)
+    }
+
+    /// The saddles from a cell to its eastern and southern neighbours, and out where it may lie at the rim.
+    fn beside(&self, cell: usize, may_let_out: bool, found: &mut Found) {
         let (level, basin) = (self.surface.level[cell], self.basins.labels[cell]);
         if !self.surface.has_data(cell) {
             return;
@@ -97,7 +107,7 @@ impl Finder<'_> {
         }
         let at_the_rim = || self.surface.around(cell).iter().any(|&other| self.surface.lets_out(other));
         // A pit alone can be the lowest cell of its basin at the rim, but so can any other cell.
-        if basin != 0 && at_the_rim() {
+        if may_let_out && basin != 0 && at_the_rim() {
             found.add([basin, 0], packed(level, cell, OUT));
         }
     }

@@ -1,4 +1,4 @@
-//! The island that a template makes from nothing: rivers end at its sea, nothing grows under it, and it is the same at every
+//! Landscapes that templates make from nothing: rivers end at the sea, nothing grows under it, and they are the same at every
 //! size.
 
 use weald::Landscape;
@@ -20,20 +20,20 @@ spacing = 60.0
 "#;
 
 fn island(side: u64) -> Landscape {
-    changed_island(side, &[])
+    changed("island", PLANTED, side, &[])
 }
 
-/// The island with other words in its template.
-fn changed_island(side: u64, changes: &[[&str; 2]]) -> Landscape {
-    let template = template::find("island").expect("is there").text;
+/// The landscape of a template with more steps, and with other words in it.
+fn changed(name: &str, more: &str, side: u64, changes: &[[&str; 2]]) -> Landscape {
+    let template = template::find(name).expect("is there").text;
     let (steps, outputs) = template.split_at(template.find("[[output]]").expect("has outputs"));
-    let mut text = format!("{steps}{PLANTED}{outputs}");
+    let mut text = format!("{steps}{more}{outputs}");
     for [from, to] in changes {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
     let overrides = Overrides { size: Some(side), ..Overrides::default() };
-    let recipe = Recipe::parse("island.toml", &text, &overrides).unwrap_or_else(|error| panic!("{error}"));
+    let recipe = Recipe::parse("changed.toml", &text, &overrides).unwrap_or_else(|error| panic!("{error}"));
     recipe.landscape().unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -84,19 +84,34 @@ fn beside([coarse, fine]: [&Landscape; 2]) -> [f64; 3] {
     [cells * coarse.domain.cell_area() / 1e6, sum / cells, (squares / cells).sqrt() / highest]
 }
 
+// On cells as small as the templates' a run would take a minute: what decides where rivers run is four times as coarse.
+const SMALL: [[&str; 2]; 2] =
+    [["settled = 40.0", "settled = 160.0"], ["coarsest = 40.0", "coarsest = 160.0"]];
+
 #[test]
 fn the_island_is_the_same_at_every_size() {
-    // On cells as small as the template's a run would take a minute: what decides where rivers run is four times as coarse.
-    let small = [["settled = 40.0", "settled = 160.0"], ["coarsest = 40.0", "coarsest = 160.0"]];
-    let [coarse, fine] = [128, 256].map(|side| changed_island(side, &small));
+    let island = |side, changes: &[[&str; 2]]| changed("island", PLANTED, side, changes);
+    let [coarse, fine] = [128, 256].map(|side| island(side, &SMALL));
     let [area, mean, off] = beside([&coarse, &fine]);
     assert!((110.0..135.0).contains(&area) && (150.0..200.0).contains(&mean), "{area} km² of {mean} m");
     assert!(off < 0.025, "{off} of the highest");
     // Ground made on the landscape's own cells, or cells that never settle, are another island.
     for change in [["finest = 2048", "finest = 128"], ["settled = 160.0", ""]] {
         let side = if change[0].starts_with("finest") { 128 } else { 256 };
-        let other = changed_island(side, &[&small[..], &[change]].concat());
+        let other = island(side, &[&SMALL[..], &[change]].concat());
         let pair = if side == 128 { [&other, &fine] } else { [&coarse, &other] };
         assert!(beside(pair)[2] > 0.035, "{change:?}: {:?}", beside(pair));
+    }
+}
+
+#[test]
+fn ranges_and_fjords_are_the_same_at_every_size() {
+    for name in ["range", "fjord"] {
+        let [coarse, fine] = [128, 256].map(|side| changed(name, "", side, &SMALL));
+        let off = beside([&coarse, &fine])[2];
+        let other = changed(name, "", 128, &[&SMALL[..], &[["finest = 2048", "finest = 128"]]].concat());
+        let apart = beside([&other, &fine])[2];
+        println!("{name}: {off} and {apart}");
+        assert!(off < 0.02 && apart > 0.03, "{name}: {off} of the highest, {apart} on its own ground");
     }
 }

@@ -10,7 +10,8 @@ use super::settle::{Passed, Visited, settle_side_by_side};
 use super::tiling::{Tiling, beside};
 use crate::flow::accumulate::set_directions;
 use crate::flow::directions::{OUTLET, SEA, opposite};
-use crate::flow::least_deviation::{Candidates, Path, donors};
+use crate::flow::fall_lines::FallLines;
+use crate::flow::least_deviation::Path;
 use crate::flow::surface::{NO_DATA, Surface};
 use weald_core::error::Error;
 use weald_core::grid::Size;
@@ -108,8 +109,10 @@ struct TileOfPaths {
     surface: Surface,
     /// Directions of steepest descent, those of the sea included.
     steepest: Vec<u8>,
-    /// The neighbours to which cells of the tile and those beside it may drain.
-    receivers: Vec<u8>,
+    /// Those of cells of the tile and beside it.
+    lines: FallLines,
+    /// The neighbours from which each cell may receive.
+    donors: Vec<u8>,
 }
 
 /// Directions and paths of a tile and of the cells around it, as far as they are known.
@@ -148,26 +151,21 @@ impl TileOfPaths {
         let Size { columns, rows } = window.size();
         let size = Size { columns: columns + 2, rows: rows + 2 };
         let surface = Surface { size, stride: columns + 2 * MARGIN, level, elsewhere: Vec::new() };
-        let (steepest, receivers) = (vec![OUTLET; surface.cells()], vec![0; surface.cells()]);
+        let mut steepest = vec![OUTLET; surface.cells()];
         let own = cells(&window).map(|(x, y)| [x, y]).zip(codes);
-        let mut ground = Self { tile, window, surface, steepest, receivers };
         let ring = tiling.ring_of(tile).into_iter();
         let ring = ring.map(|cell| (cell, steepest_of_borders.at(tiling.border(cell))));
         for (cell, code) in own.chain(ring) {
-            let at = ground.place(cell);
-            ground.steepest[at] = code;
-            ground.receivers[at] = ground.candidates(at).receivers();
+            steepest[place(&window, MARGIN, cell)] = code;
         }
-        Ok(ground)
+        let on_land: Vec<u8> = steepest.iter().map(|&code| if code == SEA { OUTLET } else { code }).collect();
+        let lines = FallLines::of(&surface, &on_land);
+        let donors = lines.donors(&surface);
+        Ok(Self { tile, window, surface, steepest, lines, donors })
     }
 
     fn place(&self, cell: [usize; 2]) -> usize {
         place(&self.window, MARGIN, cell)
-    }
-
-    fn candidates(&self, at: usize) -> Candidates {
-        let code = Some(self.steepest[at]).filter(|&code| code != SEA);
-        Candidates::of(&self.surface, at, code.unwrap_or(OUTLET))
     }
 
     fn seen(&self, tiling: &Tiling, known: &Borders<Found>) -> Seen {
@@ -194,13 +192,13 @@ impl TileOfPaths {
         let (mut waiting, mut ready) = (vec![u8::MAX; cells_in_all], Vec::new());
         for at in cells(&self.window).map(|(x, y)| self.place([x, y])) {
             let waits = |&direction: &usize| paths.codes[self.beside(at, direction)] == UNKNOWN;
-            waiting[at] = set_directions(self.donors(at)).filter(waits).count() as u8;
+            waiting[at] = set_directions(self.donors[at]).filter(waits).count() as u8;
             ready.extend((waiting[at] == 0).then_some(at));
         }
         while let Some(at) = ready.pop() {
             paths.set(at, Some(self.through(at, &paths)));
             paths.open -= 1;
-            for next in set_directions(self.receivers[at]).map(|direction| self.beside(at, direction)) {
+            for next in set_directions(self.lines.receivers[at]).map(|direction| self.beside(at, direction)) {
                 // Cells of other tiles keep their mark.
                 if waiting[next] != u8::MAX {
                     waiting[next] -= 1;
@@ -213,16 +211,12 @@ impl TileOfPaths {
 
     /// The code and the path of a cell to which all that may drain are known.
     fn through(&self, at: usize, paths: &TilePaths) -> (u8, Path) {
-        let arriving = set_directions(self.donors(at)).filter_map(|direction| {
+        let arriving = set_directions(self.donors[at]).filter_map(|direction| {
             let donor = self.beside(at, direction);
             let (code, path) = paths.at(donor)?;
-            (code == opposite(direction as u8) + 1).then_some((path, self.surface.level[donor]))
+            (code == opposite(direction as u8) + 1).then_some((path, donor))
         });
-        Path::through(&self.candidates(at), arriving)
-    }
-
-    fn donors(&self, at: usize) -> u8 {
-        donors(&self.surface, &self.receivers, at)
+        Path::through(&self.lines, at, arriving, |donor| self.surface.level[donor])
     }
 
     fn beside(&self, at: usize, direction: usize) -> usize {

@@ -155,6 +155,7 @@ impl TileOfSums {
         let routed = |levels| Routed {
             surface: Field::from_values(size, levels),
             directions: Directions::new(size, codes.clone()),
+            upslope_cells: None,
         };
         let routed = flow.shared.map(|(surface, _)| surface.read(&held).map(routed)).transpose()?;
         let flags = |valid: Vec<u8>| valid.into_iter().map(|flag| flag != 0).collect();
