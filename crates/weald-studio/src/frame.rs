@@ -70,15 +70,18 @@ impl eframe::App for Studio {
 impl Studio {
     /// Notes what was saved, and keeps what is not.
     fn keep(&mut self) {
-        if let Some((file, state)) = &self.status.saved
-            && self.project.recipe_file().as_ref() == Some(file)
-            && self.noted_saved != Some(*state)
-        {
-            self.noted_saved = Some(*state);
-            self.project.saved(*state);
-            self.say(self.said_of_saving());
+        if self.noted_saved != self.status.saved {
+            self.noted_saved.clone_from(&self.status.saved);
+            if let Some((file, state)) = &self.status.saved
+                && self.project.recipe_file().as_ref() == Some(file)
+            {
+                self.project.saved(*state);
+                self.say(self.said_of_saving());
+            }
         }
-        if self.kept_at.elapsed() >= KEPT_EVERY {
+        // A copy that is written after what was saved would be taken up in place of it.
+        let saves = self.status.done < self.saving;
+        if self.kept_at.elapsed() >= KEPT_EVERY && !saves {
             self.kept_at = Instant::now();
             self.keep_unsaved();
         }

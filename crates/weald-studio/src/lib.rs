@@ -17,6 +17,7 @@ mod interface;
 mod looks;
 mod navigation;
 mod on_page;
+mod options;
 mod own_files;
 mod panels;
 mod pick;
@@ -39,9 +40,10 @@ pub mod work;
 pub use brushes::Tool;
 pub use dialogs::{Chooser, Wanted};
 pub use navigation::Mode;
+pub use options::Options;
 #[cfg(not(target_arch = "wasm32"))]
 pub use response::{Response, response};
-pub use studio::{Options, Studio};
+pub use studio::Studio;
 #[cfg(not(target_arch = "wasm32"))]
 pub use trace::{Trace, record};
 #[doc(hidden)]

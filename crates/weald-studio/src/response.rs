@@ -11,7 +11,8 @@ use weald::Error;
 use weald::edit::{Brush, Effect};
 
 use crate::navigation;
-use crate::studio::{Options, Studio};
+use crate::options::Options;
+use crate::studio::Studio;
 use crate::window::show;
 use crate::work::Task;
 

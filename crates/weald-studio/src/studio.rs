@@ -7,7 +7,6 @@ mod obey;
 mod views;
 
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 use web_time::Instant;
 
 use eframe::egui::Context;
@@ -23,10 +22,10 @@ use crate::dialogs;
 use crate::dialogs::{Chooser, Dialog};
 use crate::document::Document;
 use crate::drawing::Drawing;
-use crate::host::Host;
 use crate::looks::Looks;
 use crate::navigation::Mode;
 use crate::on_page::OnPage;
+use crate::options::Options;
 use crate::own_files::OwnFiles;
 use crate::pick::Place;
 use crate::presets::Outputs;
@@ -37,7 +36,7 @@ use crate::state::{Did, State};
 use crate::viewport::{Viewport, WindowDevice, device_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::work::Thread;
-use crate::work::{Phase, Remote, Status, Task, Work};
+use crate::work::{Phase, Status, Task, Work};
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,26 +90,6 @@ pub(crate) struct Sheet {
     pub(crate) first: u64,
     pub(crate) count: u64,
     pub(crate) folder: String,
-}
-
-/// How a studio begins.
-#[derive(Clone, Default)]
-pub struct Options {
-    /// A recipe, an elevation model or the folder of a project; where there is none, what was not saved when a studio was
-    /// killed, or else a template.
-    pub what: Option<PathBuf>,
-    /// Where names of what was open of late are kept, and what is not saved, in place of where the system keeps such.
-    pub own_files: Option<PathBuf>,
-    /// The worker of a page; where there is none, a thread works.
-    pub remote: Option<Rc<Remote>>,
-    /// The page around it.
-    pub host: Option<Rc<dyn Host>>,
-    /// What lets the user choose a file or a folder, in place of the dialogs of the system.
-    pub chooser: Option<Chooser>,
-    /// Whether it begins with a simulation that runs, and no question and no control before [`Studio::show_controls`].
-    pub plays: bool,
-    /// Whether a picture at rest becomes as fine as its place, however long that takes: who compares pictures wants it.
-    pub finest: bool,
 }
 
 /// What is typed to find a command, and which of those found is chosen.
@@ -192,7 +171,9 @@ pub struct Studio {
     engine: Engine,
     pub(crate) is_closing: bool,
     /// What was saved and exported last, as far as the user was told.
-    pub(crate) noted_saved: Option<State>,
+    pub(crate) noted_saved: Option<(PathBuf, State)>,
+    /// Number of the task that saves, of those that were asked.
+    pub(crate) saving: u64,
     pub(crate) kept_at: Instant,
     pub(crate) noted_export: Option<PathBuf>,
 }
@@ -281,8 +262,8 @@ impl Studio {
             #[cfg(target_arch = "wasm32")]
             None => return Err(Error::Run("a page has a worker".to_owned())),
         };
-        let on_device = window.map(|window| Viewport::new(window, context, options.finest)).transpose()?;
-        let viewport: Box<dyn Drawing> = match on_device {
+        let on_device = window.map(|window| Viewport::new((window, options.gpu), context, options.finest));
+        let viewport: Box<dyn Drawing> = match on_device.transpose()? {
             Some(viewport) => Box::new(viewport),
             None => Box::new(Rays::new(context, options.finest)),
         };
@@ -346,6 +327,7 @@ impl Studio {
             engine,
             is_closing: false,
             noted_saved: None,
+            saving: 0,
             kept_at: Instant::now(),
             noted_export: None,
         };

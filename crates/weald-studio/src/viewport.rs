@@ -12,7 +12,7 @@ use web_time::Instant;
 use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use eframe::wgpu::{Backends, FilterMode};
+use eframe::wgpu::{Backends, FilterMode, InstanceFlags};
 use weald::edit::Canvas;
 use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
@@ -71,6 +71,8 @@ fn device_options() -> WgpuConfiguration {
 pub fn device_setup() -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = Backends::PRIMARY;
+    // Shaders without the lines of their text, which take a tenth of the time that it takes to compile them.
+    setup.instance_descriptor.flags = InstanceFlags::empty();
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     WgpuSetup::CreateNew(setup)
 }
@@ -104,12 +106,18 @@ pub(crate) struct Viewport {
 }
 
 impl Viewport {
-    /// On the device of a window, with pictures at rest that are as fine as their place, or as the device is quick.
+    /// On the device of a window, which other windows may have too, with pictures at rest that are as fine as their place,
+    /// or as the device is quick.
     ///
     /// # Errors
     /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
-    pub(crate) fn new(window: &WindowDevice, context: &Context, finest: bool) -> Result<Self, Error> {
-        let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
+    pub(crate) fn new(
+        (window, gpu): (&WindowDevice, Option<Gpu>),
+        context: &Context,
+        finest: bool,
+    ) -> Result<Self, Error> {
+        let own = || Gpu::shared(&window.adapter, &window.device, &window.queue);
+        let gpu = gpu.map_or_else(own, Ok)?;
         #[cfg(not(target_arch = "wasm32"))]
         if gpu.is_software() && !window.target_format.is_srgb() {
             context.add_plugin(Interface::new(window));

@@ -4,7 +4,8 @@ use eframe::egui::ViewportBuilder;
 use eframe::{CreationContext, NativeOptions};
 use weald::Error;
 
-use crate::studio::{Options as StudioOptions, Studio};
+use crate::options::Options as StudioOptions;
+use crate::studio::Studio;
 use crate::viewport;
 
 /// Opens the studio, and returns when it is closed.

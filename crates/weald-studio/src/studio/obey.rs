@@ -130,6 +130,7 @@ impl Studio {
     pub(crate) fn save_in(&mut self, file: PathBuf) {
         if self.has_run() {
             self.work.ask(Task::Save(file));
+            self.saving = self.work.asked();
         } else {
             self.save_typed();
         }

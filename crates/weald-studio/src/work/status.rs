@@ -139,8 +139,10 @@ pub struct Status {
     pub changes: u64,
     /// How many strokes, settings and steps that were asked could not be done, and left nothing to undo.
     pub refused: u64,
-    /// What was written last, of which text of the document and at which of the changes.
+    /// The file that was saved last, of which text of the document and at which of the changes; none of this project yet.
     pub saved: Option<(PathBuf, State)>,
+    /// The same of what was written in case that the program is killed.
+    pub autosaved: Option<(PathBuf, State)>,
     /// Landscapes of several seeds, where such were asked for.
     pub seeds: Option<Seeds>,
     /// What was exported last.

@@ -137,7 +137,7 @@ impl Worker {
     fn take(&mut self, number: u64, task: Task) -> Result<(), Error> {
         let _span = tracing::trace_span!("task").entered();
         if let Task::Keep(file) = task {
-            return self.save(&file);
+            return self.autosave(&file);
         }
         self.shared.change(|status| status.error = None);
         match task {
@@ -283,6 +283,27 @@ impl Worker {
     }
 
     fn save(&mut self, file: &Path) -> Result<(), Error> {
+        self.write(file)?;
+        let state = self.state();
+        self.shared.change(|status| status.saved = Some((file.to_owned(), state)));
+        Ok(())
+    }
+
+    /// Writes what is not saved.
+    fn autosave(&mut self, file: &Path) -> Result<(), Error> {
+        self.write(file)?;
+        let state = self.state();
+        self.shared.change(|status| status.autosaved = Some((file.to_owned(), state)));
+        Ok(())
+    }
+
+    /// What a file that is written now holds.
+    fn state(&self) -> State {
+        let revision = self.opening.as_ref().map_or(0, |opening| opening.revision);
+        State { revision, changes: self.shared.status().changes }
+    }
+
+    fn write(&mut self, file: &Path) -> Result<(), Error> {
         let folder = file.parent().unwrap_or(Path::new("/"));
         files::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
         match (&mut self.held, &self.opening) {
@@ -290,10 +311,6 @@ impl Worker {
             (None, Some(opening)) => weald::io::write_whole(file, opening.text.as_bytes())?,
             (None, None) => return Err(nothing_ran()),
         }
-        let revision = self.opening.as_ref().map_or(0, |opening| opening.revision);
-        self.shared.change(|status| {
-            status.saved = Some((file.to_owned(), State { revision, changes: status.changes }));
-        });
         Ok(())
     }
 

@@ -94,7 +94,8 @@ fn what_was_not_saved_is_taken_up_by_the_next_start() {
     window.settle();
     window.click("One step");
     window.until("a step that is kept", |status| {
-        status.steps == 1 && status.saved.as_ref().is_some_and(|(_, state)| state.changes == status.changes)
+        status.steps == 1
+            && status.autosaved.as_ref().is_some_and(|(_, state)| state.changes == status.changes)
     });
     // A window that is not closed leaves what one that is killed leaves.
     drop(window);

@@ -2,17 +2,35 @@
 
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::OnceLock;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
+use eframe::egui_wgpu::{RenderState, RendererOptions, WgpuSetup, WgpuSetupExisting};
+use eframe::wgpu::{Instance, InstanceDescriptor};
 use egui_kittest::kittest::Queryable;
+use egui_kittest::wgpu::create_render_state;
 use egui_kittest::{Harness, HarnessBuilder};
+use weald_gpu::Gpu;
 use weald_studio::work::{Phase, Status};
 use weald_studio::{Chooser, Options, Studio};
 
 /// How long anything may take before a test says that it does not happen.
 const TIMEOUT: Duration = Duration::from_mins(3);
+
+/// The device of all windows: compiling for one of its own took most of the time of each.
+fn device() -> (WgpuSetupExisting, Gpu) {
+    static DEVICE: OnceLock<(WgpuSetupExisting, Gpu)> = OnceLock::new();
+    let open = || {
+        let opened = create_render_state(weald_studio::device_setup(), RendererOptions::PREDICTABLE);
+        let gpu = Gpu::shared(&opened.adapter, &opened.device, &opened.queue).expect("it has what is needed");
+        let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
+        let RenderState { adapter, device, queue, .. } = opened;
+        (WgpuSetupExisting { instance, adapter, device, queue }, gpu)
+    };
+    DEVICE.get_or_init(open).clone()
+}
 
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Studio>,
@@ -38,10 +56,11 @@ impl Window {
 
     /// The same with all options.
     pub(crate) fn with(options: Options) -> Self {
+        let (device, gpu) = device();
         // How fine a picture is must not hang on how busy the machine is.
-        let options = Options { finest: true, ..options };
+        let options = Options { finest: true, gpu: Some(gpu), ..options };
         let builder: HarnessBuilder<Studio> =
-            Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
+            Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(WgpuSetup::Existing(device));
         let harness = builder.build_eframe(move |context| {
             Studio::of(context, options).unwrap_or_else(|error| panic!("{error}"))
         });
@@ -155,6 +174,9 @@ impl Window {
 
     /// Clicks the last control of this label: that of a question lies over the others.
     pub(crate) fn click_last(&mut self, label: &str) {
+        // As of any click.
+        self.harness.step();
+        self.harness.step();
         self.harness.get_all_by_label(label).last().expect("there").click();
         self.harness.step();
         self.harness.step();

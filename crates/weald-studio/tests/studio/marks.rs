@@ -35,6 +35,8 @@ fn a_spring_that_is_dragged_rises_elsewhere_and_its_mark_goes_with_it() {
     window.until("a run with it", |status| {
         status.revision == 2 && status.shown.as_ref().is_some_and(|shown| shown.revision == 2)
     });
+    // What comes with the picture moves what is clicked.
+    window.drawn();
     let project = folder.path().join("project");
     window.saved_script(&project);
     let text = fs::read_to_string(project.join("landscape.toml")).expect("saved");

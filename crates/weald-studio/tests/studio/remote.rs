@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 use weald::edit::{Brush, Effect, Falloff, Setting};
 use weald::engine::Engine;
 use weald::recipe::source::Value;
-use weald_studio::work::{Opening, Parcel, Phase, Remote, Served, Simulates, Status, Task, Thread, Work};
+use weald_studio::work::{
+    Opening, Parcel, Phase, Remote, Served, Shown, Simulates, Status, Task, Thread, Work,
+};
 
 const RECIPE: &str = r#"
 [landscape]
@@ -118,27 +120,23 @@ impl Apart {
     }
 }
 
-/// What a thread shows once it is done.
+/// What a thread shows once all that was asked is done and the steps after the one that is held have run.
 fn by_thread(tasks: Vec<Task>) -> Status {
     let work = Work::Thread(Thread::new(|| {}).expect("a thread"));
+    let asked = tasks.len() as u64;
     for task in tasks {
         work.ask(task);
     }
     let begun = Instant::now();
-    let mut still_since = Instant::now();
-    let mut last = 0;
     loop {
         std::thread::sleep(Duration::from_millis(20));
         let status = work.status();
-        let shown = status.shown.as_ref().map_or(0, |shown| shown.number);
-        if status.phase != Phase::Idle || shown != last {
-            (still_since, last) = (Instant::now(), shown);
-        }
-        // The steps after the one that is held run when nothing was asked for a while.
-        if still_since.elapsed() > Duration::from_millis(1500) {
+        let is_whole = |shown: &Shown| shown.steps == usize::MAX && shown.changes == status.changes;
+        let is_done = status.done == asked && status.phase == Phase::Idle;
+        if is_done && status.shown.as_ref().is_some_and(is_whole) {
             return status;
         }
-        assert!(begun.elapsed() < Duration::from_mins(2), "it does not end");
+        assert!(begun.elapsed() < Duration::from_mins(2), "it does not end: {status:?}");
     }
 }
 
@@ -198,4 +196,24 @@ fn a_damaged_message_is_told_and_the_page_goes_on() {
     apart.work.ask(opening(RECIPE));
     let status = apart.settle();
     assert!(status.error.is_none() && status.shown.is_some());
+}
+
+#[test]
+fn what_is_kept_in_case_that_the_program_is_killed_does_not_hide_what_was_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [saved, kept] = ["landscape.toml", ".unsaved.toml"].map(|name| folder.path().join(name));
+    let mut tasks = vec![opening(RECIPE), Task::Advance(3), Task::Save(saved.clone()), Task::Advance(1)];
+    tasks.push(Task::Keep(kept.clone()));
+    let status = by_thread(tasks.clone());
+    // A worker may do both between two frames of the window.
+    let (file, state) = status.saved.expect("saved");
+    assert_eq!((file, state.changes + 1), (saved, status.changes));
+    let (file, state) = status.autosaved.expect("the step after it is kept");
+    assert_eq!((file, state.changes), (kept, status.changes));
+    tasks.push(opening(RECIPE));
+    let status = by_thread(tasks);
+    assert!(
+        status.saved.is_none() && status.autosaved.is_none(),
+        "of another project nothing is written yet"
+    );
 }

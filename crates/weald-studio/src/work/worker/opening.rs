@@ -29,6 +29,7 @@ impl Worker {
         if !opening.keeps_edits {
             // Another project: whatever comes of it, nothing of the one before is saved in its place.
             (self.held, self.opening) = (None, Some(opening.clone()));
+            self.shared.change(|status| (status.saved, status.autosaved) = (None, None));
         }
         let recipe = Recipe::parse(&opening.file, &opening.text, &Overrides::default())?;
         let wanted = opening.steps.unwrap_or(recipe.steps.len());
