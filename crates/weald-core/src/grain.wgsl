@@ -61,17 +61,21 @@ struct Octaves {
 }
 
 // The sum at a point, for a pixel of that footprint in metres; the slope is a metre.
+//
+// It ends at the end of a turn, as loops of shaders do here: software that acts as a device goes through a whole turn more to
+// find at its beginning that none is left.
 fn octaves_at(octaves: Octaves, point: vec2<f32>, footprint: f32) -> Grain {
     var sum = Grain(0.0, vec2<f32>(0.0));
     var strength = 1.0;
     var wavelength = octaves.wavelength;
     var place = point;
     var turn = vec2<f32>(1.0, 0.0);
-    for (var octave = 0u; octave < octaves.count; octave++) {
-        let seen = strength * grain_visible(footprint, wavelength);
-        if seen <= 0.0 {
-            break;
-        }
+    var seen = grain_visible(footprint, wavelength);
+    if seen <= 0.0 {
+        return sum;
+    }
+    var octave = 0u;
+    loop {
         let here = grain(place / wavelength, octaves.seed + octave * 0x9e3779b9u);
         sum.value += seen * here.value;
         let slope = seen * here.slope / wavelength;
@@ -80,6 +84,11 @@ fn octaves_at(octaves: Octaves, point: vec2<f32>, footprint: f32) -> Grain {
         turn = vec2<f32>(0.8 * turn.x - 0.6 * turn.y, 0.8 * turn.y + 0.6 * turn.x);
         strength *= octaves.gain;
         wavelength *= 0.5;
+        seen = strength * grain_visible(footprint, wavelength);
+        octave++;
+        if octave >= octaves.count || seen <= 0.0 {
+            break;
+        }
     }
     return sum;
 }

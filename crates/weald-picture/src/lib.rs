@@ -59,6 +59,8 @@ pub use section::{Along, Section};
 pub use sheet::fits_on_sheet;
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
+#[doc(hidden)]
+pub use view::twin_calls;
 pub use view::{
     Around, Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SPACING_OF_TREES, SceneTexture,
     TextureKind, Tree, View,

@@ -19,7 +19,7 @@ const SKY_MOST: u64 = 1024 * 1024;
 /// What to count of the bytes that a view takes only where some ground is steep, which is drawn on finer cells. Only the ground
 /// that a run makes tells whether any is: with so much of them the sum is within a third either way.
 fn if_steep(bytes: u64) -> u64 {
-    9 * bytes / 20
+    21 * bytes / 40
 }
 
 impl Picture for View {

@@ -54,6 +54,8 @@ mod tone;
 mod trees;
 mod turf;
 mod twin;
+#[doc(hidden)]
+pub mod twin_calls;
 mod vector;
 mod water;
 mod wooded;

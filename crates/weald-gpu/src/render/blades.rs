@@ -8,10 +8,10 @@ use weald::grow::grass::choice::LISTS;
 use wgpu::{
     ColorTargetState, ColorWrites, CompareFunction, FragmentState, MultisampleState,
     PipelineCompilationOptions, PipelineLayout, PrimitiveState, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModule, VertexState,
+    ShaderModule, VertexAttribute, VertexState, vertex_attr_array,
 };
 
-use super::layouts::depth_state;
+use super::layouts::{depth_state, shared};
 use super::targets::LIGHT;
 use crate::gpu::context::Context;
 
@@ -29,7 +29,10 @@ pub(super) fn corners(rows: [u32; LISTS]) -> Vec<u16> {
     firsts.flat_map(|first| [0, 1, 2, 2, 1, 3].map(|corner| first + corner)).collect()
 }
 
-/// A pipeline without vertex buffers, from a vertex entry point to `blade_fragment`.
+/// Where a list starts and where it ends, each a number that all vertices share.
+const ENDS: [[VertexAttribute; 1]; 2] = [vertex_attr_array![0 => Uint32], vertex_attr_array![1 => Uint32]];
+
+/// A pipeline from a vertex entry point to `blade_fragment`.
 pub(super) fn pipeline(
     context: &Context,
     (module, layout): (&ShaderModule, &PipelineLayout),
@@ -45,7 +48,7 @@ pub(super) fn pipeline(
                 module,
                 entry_point: Some(vertex),
                 compilation_options: PipelineCompilationOptions::default(),
-                buffers: &[],
+                buffers: &ENDS.each_ref().map(|end| Some(shared(end))),
             },
             primitive: PrimitiveState::default(),
             depth_stencil: Some(depth_state(true, CompareFunction::Greater)),

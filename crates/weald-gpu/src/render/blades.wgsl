@@ -1,62 +1,69 @@
 // Blades of grass, lit from both sides.
 
 @group(2) @binding(0) var<uniform> grasses: Grasses;
-@group(2) @binding(2) var<storage, read> sets: array<vec4<u32>>;
-@group(2) @binding(3) var<storage, read> kept: array<u32>;
-@group(2) @binding(4) var<storage, read> starts: array<u32>;
-@group(2) @binding(5) var<storage, read> lit_sets: array<LitSet>;
+@group(2) @binding(2) var lit_sets: texture_2d<u32>;
+@group(2) @binding(3) var blades: texture_2d<u32>;
 
-fn leaf(list: u32, vertex_number: u32, instance_number: u32) -> Leaf {
-    let count = arrayLength(&sets);
+// A corner of a blade, in few numbers: what draws triangles works on each, and the point follows from where a pixel is.
+struct Leaf {
+    @builtin(position) position: vec4<f32>,
+    // The normal, and the share of the sun that is seen among others.
+    @location(0) normal: vec4<f32>,
+    // The colour, and the share of the sky.
+    @location(1) colour: vec4<f32>,
+}
+
+// Where a list of sets starts and ends.
+struct ListEnds {
+    @location(0) first: u32,
+    @location(1) end: u32,
+}
+
+fn leaf(list: u32, ends: ListEnds, vertex_number: u32, instance_number: u32) -> Leaf {
     let vertices = 2u * choice.rows[list];
     let vertex = vertex_number % vertices;
     let number = instance_number * SETS_PER_INSTANCE * BLADES + vertex_number / vertices;
-    let place = starts[place_of_run(list, 0u, count)] + number / BLADES;
+    let place = ends.first + number / BLADES;
     // The last instance has room for sets that there are not: all of their vertices lie in one point.
-    if place >= starts[place_of_run(list + 1u, 0u, count)] {
-        return Leaf(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0));
+    if place >= ends.end {
+        return Leaf(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec4<f32>(0.0), vec4<f32>(0.0));
     }
-    let instance = unpack(sets[kept[place]]);
-    let known = lit_sets[place];
-    let root = known.root;
-    let distance = length(root - frame.moment.yzw);
-    let as_counted = counted(distance);
-    let tall = height_share(rank_of(instance.tuft), distance);
+    let lit = unpacked_set(record_at(lit_sets, place));
+    let blade = unpacked_blade(record_at(blades, ends.first * BLADES + number), lit);
+    let slide = row_slide(list, counted(length(lit.root - frame.moment.yzw)));
     let row = vertex / 2u;
-    let along = (f32(row) - f32(row % 2u) * row_slide(list, as_counted)) / f32(choice.rows[list] - 1u);
+    let along = (f32(row) - f32(row % 2u) * slide) / f32(choice.rows[list] - 1u);
     let side = f32(vertex % 2u) * 2.0 - 1.0;
-    var blade = blade_of(instance.species, instance.tuft, number % BLADES);
-    // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
-    let standing = select(1.0, share(distance), choice.thinned == 1u);
-    let seen = 0.8 * distance * frame.eye.w;
-    blade.width = max(blade.width * broader(standing), min(seen, 0.03));
-    let still = vertex_of(blade, along, side);
-    let here = swayed(blade, still, vec2<f32>(known.push.x, -known.push.y));
-    let offset = vec3<f32>(here.place.x, -here.place.z, here.place.y * tall - 0.02);
-    let point = root + offset;
+    let here = swayed(blade, vertex_of(blade, along, side), vec2<f32>(lit.push.x, -lit.push.y));
+    let point = lit.root + vec3<f32>(here.place.x, -here.place.z, here.place.y * lit.tall - 0.02);
     let normal = vec3<f32>(here.normal.x, -here.normal.z, here.normal.y);
-    let above = known.leaves * (1.0 - along);
+    let above = lit.light.y * (1.0 - along);
     return Leaf(
-        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(known.sun * through_leaves(above, scene.sun.z), sky_through_leaves(above)),
+        projected(point),
+        vec4<f32>(normal, lit.light.x * through_leaves(above, scene.sun.z)),
+        vec4<f32>(here.head * lit.head + (1.0 - here.head) * lit.leaf, sky_through_leaves(above)),
     );
 }
 
 @vertex
-fn near_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
-    return leaf(0u, vertex, number);
+fn near_blade(ends: ListEnds, @builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(0u, ends, vertex, number);
 }
 
 @vertex
-fn middle_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
-    return leaf(1u, vertex, number);
+fn middle_blade(ends: ListEnds, @builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(1u, ends, vertex, number);
 }
 
 @vertex
-fn far_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
-    return leaf(2u, vertex, number);
+fn far_blade(ends: ListEnds, @builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(2u, ends, vertex, number);
 }
 
 @fragment
 fn blade_fragment(in: Leaf) -> @location(0) vec4<f32> {
-    return leaf_light(in.colour, in.point, in.normal, in.light, THROUGH, 1.4);
+    let point = point_at(in.position.xy, in.position.z);
+    // A pixel may have a sample on a blade and its middle beside it.
+    let light = clamp(vec2<f32>(in.normal.w, in.colour.w), vec2<f32>(0.0), vec2<f32>(1.0));
+    return leaf_light(in.colour.xyz, point, in.normal.xyz, light, THROUGH, 1.4);
 }

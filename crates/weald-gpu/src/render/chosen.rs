@@ -33,7 +33,7 @@ impl Renderer {
         let context = self.gpu.context.clone();
         context.attempt("choosing grass", || {
             let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            self.aim((&Arc::clone(&self.own), true), camera, &mut encoder)?;
+            self.aim((&Arc::clone(&self.own), true), (camera, None), &mut encoder)?;
             context.queue.submit([encoder.finish()]);
             Ok(())
         })?;
@@ -49,7 +49,7 @@ impl Renderer {
         self.render(camera)?;
         let mut grass = Vec::new();
         for loaded in self.grass.iter().flat_map(Grass::loaded) {
-            let (lit, starts) = (words(&self.gpu, &loaded.lit)?, words(&self.gpu, &loaded.starts)?);
+            let (lit, starts) = (loaded.lit[0].words(&self.gpu)?, words(&self.gpu, &loaded.starts)?);
             let count = starts.last().copied().unwrap_or(0);
             let root = |set: &[u32]| [0, 1, 2].map(|at| f32::from_bits(set[at]));
             grass.extend(lit.chunks_exact(8).take(count as usize).map(root));

@@ -44,20 +44,18 @@ fn summed(thread: u32, value: u32) -> u32 {
     return sum;
 }
 
-// The list of a set in sight, as `list_of` has it, unless ground hides it.
-fn chosen_list(number: u32) -> u32 {
-    let instance = unpack(sets[number]);
-    var chosen = LISTS;
-    var root = vec3<f32>(0.0);
-    // A loop of one turn or none: software would look up all heights in a condition.
-    let looks = select(0u, 1u, may_be_drawn(instance.tuft, instance.place));
-    for (var look = 0u; look < looks; look++) {
-        root = grass_root(instance.place);
-        chosen = list_of(instance.tuft, root);
-    }
+// The list of a set that may be drawn, as `list_of` has it, unless ground hides it.
+fn chosen_list(instance: Instance) -> u32 {
+    let root = grass_root(instance.place);
+    var chosen = list_of(instance.tuft, root);
     let searches = looks_for_ground(chosen);
-    for (var look = 0u; look < searches; look++) {
-        chosen = select(chosen, LISTS, is_below_ground(look, instance.species, root));
+    var look = 0u;
+    loop {
+        chosen = select(chosen, LISTS, searches > 0u && is_below_ground(look, instance.species, root));
+        look++;
+        if look >= searches || chosen == LISTS {
+            break;
+        }
     }
     return chosen;
 }
@@ -72,15 +70,31 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
     var lists = NONE_DRAWN;
     // Five bits for each list.
     var counts = 0u;
-    let end = first + select(0u, RUN, may_any_be_drawn(runs[at.x]));
-    for (var number = first; number < end; number++) {
-        var chosen = LISTS;
-        if number < count {
-            chosen = chosen_list(number);
+    let may_be = may_any_be_drawn(runs[at.x]);
+    let end = min(first + RUN, count);
+    var number = first;
+    loop {
+        var instance: Instance;
+        var is_wanted = false;
+        // On to the next set that may be drawn, whose ground is looked up then: software would look it up for all.
+        loop {
+            instance = unpack(sets[number]);
+            is_wanted = may_be && may_be_drawn(instance.tuft, instance.place);
+            if is_wanted || !may_be || number + 1u >= end {
+                break;
+            }
+            number++;
         }
-        // From the two bits of none to those of the list.
-        lists ^= (LISTS ^ chosen) << (2u * (number - first));
-        counts += select(0u, 1u << (5u * chosen), chosen < LISTS);
+        if is_wanted {
+            let chosen = chosen_list(instance);
+            // From the two bits of none to those of the list.
+            lists ^= (LISTS ^ chosen) << (2u * (number - first));
+            counts += select(0u, 1u << (5u * chosen), chosen < LISTS);
+        }
+        number++;
+        if number >= end || !may_be {
+            break;
+        }
     }
     marks[at.x] = lists;
     for (var each = 0u; each < LISTS; each++) {

@@ -26,7 +26,8 @@ struct Stone {
 fn stones(place: vec2<f32>, seed: u32) -> Stone {
     let corner = floor(place);
     var top = Stone(0.0, vec2<f32>(0.0), 0.0);
-    for (var look = 0; look < 9; look++) {
+    var look = 0;
+    loop {
         let cell = corner + vec2<f32>(f32(look % 3 - 1), f32(look / 3 - 1));
         let hash = grain_bits(i32(cell.x), i32(cell.y), seed);
         let more = grain_bits(i32(hash & 0x7fffu), 7, seed);
@@ -41,13 +42,14 @@ fn stones(place: vec2<f32>, seed: u32) -> Stone {
         let long = 1.0 + 0.7 * f32((more >> 16u) & 0xffu) / 255.0;
         let within = vec2<f32>(dot(away, axis), long * (axis.x * away.y - axis.y * away.x)) / radius;
         let below = 1.0 - dot(within, within);
-        if below <= 0.0 {
-            continue;
-        }
-        let height = radius * sqrt(below);
+        let height = radius * sqrt(max(below, 0.0));
         if height > top.height {
             let slope = -(axis * within.x + long * vec2<f32>(-axis.y, axis.x) * within.y) / sqrt(below + 0.15);
             top = Stone(height, slope, f32(more >> 24u) / 255.0 - 0.5);
+        }
+        look++;
+        if look >= 9 {
+            break;
         }
     }
     return top;
@@ -66,11 +68,30 @@ fn turf_detail(point: vec3<f32>, rise: vec2<f32>, footprint: f32) -> Detail {
     return Detail(0.75 * tufts.value, 0.9 * dry.value + 0.4 * tufts.value, 0.06 * tufts.slope);
 }
 
+// The size of the finest of three layers that is seen, each so many times as large as the one before, and its number: software
+// works out what a layer is before it asks whether that is seen.
+struct Layer {
+    size: f32,
+    number: u32,
+}
+
+fn first_layer(size: f32, larger: f32, footprint: f32) -> Layer {
+    var layer = Layer(size, 0u);
+    for (var look = 0; look < 2; look++) {
+        let is_unseen = grain_visible(footprint, 0.6 * layer.size) <= 0.0;
+        layer.size = select(layer.size, larger * layer.size, is_unseen);
+        layer.number += select(0u, 1u, is_unseen);
+    }
+    return layer;
+}
+
 fn stone_detail(point: vec2<f32>, footprint: f32) -> Detail {
     let sand = octaves_at(Octaves(0.4, 6u, 0.7, 0x3au), point, footprint);
     var detail = Detail(0.35 * sand.value, 0.4 * sand.value, 0.06 * sand.slope);
-    var size = 0.06;
-    for (var layer = 0u; layer < 3u; layer++) {
+    let finest = first_layer(0.06, 2.9, footprint);
+    var size = finest.size;
+    var layer = finest.number;
+    loop {
         let shown = grain_visible(footprint, 0.6 * size);
         if shown > 0.0 {
             let stone = stones(point / size + 17.3 * f32(layer), 0x33u + layer);
@@ -82,8 +103,44 @@ fn stone_detail(point: vec2<f32>, footprint: f32) -> Detail {
             detail.bump = mix(detail.bump, 0.45 * stone.slope, on_top);
         }
         size *= 2.9;
+        layer++;
+        if layer >= 3u {
+            break;
+        }
     }
     return detail;
+}
+
+// What trees shed: leaves and needles that lie over each other, each of its own turn and tone.
+fn litter_detail(point: vec2<f32>, footprint: f32) -> Detail {
+    let mould = octaves_at(Octaves(1.3, 6u, 0.66, 0x3du), point, footprint);
+    var detail = Detail(0.9 * mould.value, 0.5 * mould.value, 0.05 * mould.slope);
+    let finest = first_layer(0.05, 1.5, footprint);
+    var size = finest.size;
+    var layer = finest.number;
+    loop {
+        let shown = grain_visible(footprint, 0.6 * size);
+        if shown > 0.0 {
+            // Flat and longer than broad, and no layer along another.
+            let leaf = stones(turned_by(point, 1.1 * f32(layer)) / vec2<f32>(size, 0.6 * size), 0x46u + layer);
+            let on_top = shown * clamp(leaf.height * 8.0, 0.0, 1.0);
+            detail.tone = mix(detail.tone, 0.4 * mould.value + 1.3 * leaf.tone, on_top);
+            detail.hue = mix(detail.hue, 0.4 * mould.value + 1.8 * leaf.tone, on_top);
+            detail.bump = mix(detail.bump, 0.16 * leaf.slope, on_top);
+        }
+        size *= 1.5;
+        layer++;
+        if layer >= 3u {
+            break;
+        }
+    }
+    return detail;
+}
+
+fn turned_by(point: vec2<f32>, angle: f32) -> vec2<f32> {
+    let sine = sin(angle);
+    let cosine = cos(angle);
+    return vec2<f32>(cosine * point.x - sine * point.y, sine * point.x + cosine * point.y);
 }
 
 fn rock_detail(point: vec2<f32>, footprint: f32) -> Detail {
@@ -94,28 +151,48 @@ fn rock_detail(point: vec2<f32>, footprint: f32) -> Detail {
     return Detail(0.75 * rough.value - 0.45 * shown * crack * crack, 0.3 * cracks.value, 0.16 * rough.slope);
 }
 
+// Of what there is detail on planes.
+const OF_ROCK = 0u;
+const OF_STONES = 1u;
+const OF_LITTER = 2u;
+
+fn detail_of(point: vec2<f32>, footprint: f32, what: u32) -> Detail {
+    switch what {
+        case OF_STONES: {
+            return stone_detail(point, footprint);
+        }
+        case OF_LITTER: {
+            return litter_detail(point, footprint);
+        }
+        default: {
+            return rock_detail(point, footprint);
+        }
+    }
+}
+
 // Detail of an upright plane or the level one, by how much the ground faces it.
-fn hard_detail(point: vec3<f32>, normal: vec3<f32>, footprint: f32, stony: f32) -> Detail {
+fn detail_on_planes(point: vec3<f32>, normal: vec3<f32>, footprint: f32, what: u32) -> Detail {
     var weights = normal * normal;
     weights *= weights;
     weights /= weights.x + weights.y + weights.z;
-    let planes = array<vec2<f32>, 3>(point.yz, point.xz + vec2<f32>(31.7, 0.0), point.xy);
     var sum = Detail(0.0, 0.0, vec2<f32>(0.0));
-    for (var plane = 0; plane < 3; plane++) {
-        let weight = weights[plane];
-        if weight < 0.03 {
-            continue;
-        }
-        var here: Detail;
-        if stony > 0.5 {
-            here = stone_detail(planes[plane], footprint);
-        } else {
-            here = rock_detail(planes[plane], footprint);
-        }
+    // The planes that count, the first of them first: on most ground one alone.
+    var left = select(vec3<f32>(0.0), weights, weights >= vec3<f32>(0.03));
+    var weight = greatest(left);
+    loop {
+        let is_level = left.z == weight;
+        let is_east = !is_level & (left.x == weight);
+        let upright = select(point.xz + vec2<f32>(31.7, 0.0), point.yz, is_east);
+        let here = detail_of(select(upright, point.xy, is_level), footprint, what);
         sum.tone += weight * here.tone;
         sum.hue += weight * here.hue;
         // Slopes count on the level plane alone; on upright ones the tone shows the form.
-        sum.bump += select(0.4, 1.0, plane == 2) * weight * here.bump;
+        sum.bump += select(0.4, 1.0, is_level) * weight * here.bump;
+        left = without_plane(left, is_level, is_east);
+        weight = greatest(left);
+        if weight <= 0.0 {
+            break;
+        }
     }
     return sum;
 }
@@ -148,10 +225,14 @@ fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footpri
     if skin.kinds.y > 0.0 {
         let share = patch_of_stones(skin.kinds.y, detail.tone);
         colour = parted_colour(skin, share);
-        detail = blended(detail, hard_detail(point, normal, footprint, 1.0), share);
+        detail = blended(detail, detail_on_planes(point, normal, footprint, OF_STONES), share);
     }
     if skin.kinds.z > 0.0 {
-        detail = blended(detail, hard_detail(point, normal, footprint, 0.0), skin.kinds.z);
+        detail = blended(detail, detail_on_planes(point, normal, footprint, OF_ROCK), skin.kinds.z);
+    }
+    let litter = trees_drawn * skin.kinds.x;
+    if litter > 0.0 {
+        detail = blended(detail, detail_on_planes(point, normal, footprint, OF_LITTER), litter);
     }
     let snow = octaves_on_slope(Octaves(0.7, 5u, 0.5, 0x39u), point, rise, footprint);
     detail = blended(detail, Detail(0.12 * snow.value, 0.0, 0.05 * snow.slope), skin.kinds.w);

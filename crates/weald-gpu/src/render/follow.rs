@@ -33,7 +33,7 @@ impl Renderer {
             self.follower = Some(Follower::new(&self.gpu, scene, &self.maps, self.terrain.squares())?);
         }
         self.renew_bounds()?;
-        self.shadows.forget();
+        self.forget_light();
         self.terrain.patch_heights.forget();
         let Some(follower) = &mut self.follower else { return Ok(()) };
         let context = &self.gpu.context;

@@ -37,6 +37,16 @@ struct Numbers {
     detail_points: [[f32; 4]; CASCADES - 1],
     woods: [f32; 4],
     stale: [f32; CASCADES],
+    before: [[f32; 4]; 4],
+    pixel: [f32; 4],
+}
+
+/// The picture before one that takes light from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PictureBefore {
+    pub(super) camera: Camera,
+    /// Which pixels are lit anew all the same.
+    pub(super) turn: u32,
 }
 
 /// What a camera's ground was selected for.
@@ -55,6 +65,8 @@ pub(super) struct Drawn {
     pub(super) woods: f32,
     /// The cascades that are drawn anew.
     pub(super) stale: [bool; CASCADES],
+    /// The picture before, where light is taken from it.
+    pub(super) before: Option<PictureBefore>,
 }
 
 /// The uniforms of a picture on the device, and what shadows are looked up in.
@@ -108,8 +120,8 @@ impl Frame {
     }
 
     /// Sets the numbers of the next picture.
-    pub(super) fn write(&self, into: &mut Upload<'_>, camera: &Camera, width: u32, drawn: &Drawn) {
-        write(into, &self.numbers, camera, width, drawn);
+    pub(super) fn write(&self, into: &mut Upload<'_>, camera: &Camera, size: [u32; 2], drawn: &Drawn) {
+        write(into, &self.numbers, (camera, size), drawn);
     }
 
     /// Sets those of a cascade of the sun, whose detail is chosen from a viewpoint; of the last nothing slides, and no wind
@@ -118,7 +130,7 @@ impl Frame {
         &self,
         into: &mut Upload<'_>,
         (number, stand): (usize, Viewpoint),
-        (camera, width): (&Camera, u32),
+        shown: (&Camera, [u32; 2]),
         drawn: &Drawn,
     ) {
         let own = if let Some([x, y, z, _]) = drawn.cascades.detail_points.get(number) {
@@ -126,16 +138,17 @@ impl Frame {
         } else {
             Drawn { slides: [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS], seconds: 0.0, ..*drawn }
         };
-        write(into, &self.of_cascades[number], camera, width, &own);
+        write(into, &self.of_cascades[number], shown, &own);
     }
 }
 
-fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, drawn: &Drawn) {
+fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2]), drawn: &Drawn) {
     let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
     let [x, y] = drawn.stand.place;
     let [near_x, near_y, near_z] = drawn.detail_from;
+    let [across, down] = [0, 1].map(|axis| 2.0 * camera.half[axis] / size[axis] as f32);
     let numbers = Numbers {
-        eye: with(camera.eye, camera.pixel_angle(width as usize)),
+        eye: with(camera.eye, camera.pixel_angle(size[0] as usize)),
         forward: with(camera.forward, NEAREST),
         right: with(camera.right, camera.half[0]),
         up: with(camera.up, camera.half[1]),
@@ -148,8 +161,18 @@ fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, draw
         detail_points: drawn.cascades.detail_points,
         woods: [drawn.woods, 0.0, 0.0, 0.0],
         stale: drawn.stale.map(f32::from),
+        pixel: [across, down, 0.0, 0.0],
+        before: drawn.before.map_or([[0.0; 4]; 4], |before| numbers_before(camera, before)),
     };
     into.write(store, bytemuck::bytes_of(&numbers));
+}
+
+/// The eye from the one before, exact where both are near, and that camera.
+fn numbers_before(camera: &Camera, before: PictureBefore) -> [[f32; 4]; 4] {
+    let PictureBefore { camera: Camera { eye, forward, right, up, half }, turn } = before;
+    let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+    let moved = std::array::from_fn(|axis| camera.eye[axis] - eye[axis]);
+    [with(moved, 0.0), with(forward, turn as f32), with(right, half[0]), with(up, half[1])]
 }
 
 fn bind(

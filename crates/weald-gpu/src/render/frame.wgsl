@@ -24,6 +24,14 @@ struct Frame {
     woods: vec4<f32>,
     // 1 for each cascade that is drawn anew.
     stale: vec4<f32>,
+    // Where this eye is from that of the picture before, and the directions of its camera; with the turn of pixels that are lit
+    // anew, and the tangents of half its angles.
+    before_eye: vec4<f32>,
+    before_forward: vec4<f32>,
+    before_right: vec4<f32>,
+    before_up: vec4<f32>,
+    // What a pixel spans across and down, at a distance of 1.
+    pixel: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -39,6 +47,11 @@ fn drawn_as_trees_at(distance: f32) -> f32 {
     return clamp((reach - distance) / max(0.4 * reach, 1e-3), 0.0, 1.0);
 }
 
+// What the light of ground has as its opacity, and that of all that stands before it: only the former is taken for the next
+// picture (`reprojection.wgsl`).
+const GROUND_LIGHT = 1.0;
+const OTHER_LIGHT = 0.0;
+
 // Depth is 1 at the nearest distance and 0 infinitely far, which is what keeps all digits of floating point.
 fn projected(point: vec3<f32>) -> vec4<f32> {
     let relative = point - frame.eye.xyz;
@@ -48,6 +61,17 @@ fn projected(point: vec3<f32>) -> vec4<f32> {
         frame.forward.w,
         dot(relative, frame.forward.xyz),
     );
+}
+
+// The direction in which a place of the picture looks, as long as makes it 1 forward.
+fn along_at(position: vec2<f32>) -> vec3<f32> {
+    let at = frame.pixel.xy * position - vec2<f32>(frame.right.w, frame.up.w);
+    return frame.forward.xyz + at.x * frame.right.xyz - at.y * frame.up.xyz;
+}
+
+// The point of the picture at such a depth.
+fn point_at(position: vec2<f32>, depth: f32) -> vec3<f32> {
+    return frame.eye.xyz + along_at(position) * (frame.forward.w / depth);
 }
 
 // Whether a ball of a radius around a point, seen from the eye, may be in the picture.

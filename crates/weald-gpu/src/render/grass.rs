@@ -5,7 +5,8 @@
 //! three lists by distance, of which each is an indirect draw of blades with fewer vertices. Sets that are close together lie
 //! side by side, so that one look leaves out those of a run that no camera there sees (`runs.rs`). The farther, the fewer sets
 //! stand, and the broader are their blades; a set sinks into the ground over a stretch of the way, so that none vanishes
-//! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition).
+//! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition). What a blade is, is worked out once
+//! (`light_sets.wgsl`), and read by its vertices (`lit_sets.wgsl`).
 
 use weald::grow::Vegetation;
 use weald::grow::grass::device::FUNCTIONS;
@@ -23,6 +24,7 @@ use wgpu::{
 use super::blades;
 use super::grass_layer::{Around, DRAW, GrassLayer, LoadedSets};
 use super::layouts::{Layouts, STAGE_GROUP};
+use super::records;
 use super::timing::Timer;
 use crate::gpu::Gpu;
 
@@ -126,7 +128,7 @@ impl Grass {
         }
     }
 
-    /// Encodes what all blades of a chosen set have in common, when shadows are drawn.
+    /// Encodes what the blades of chosen sets are where they are looked at, when shadows are drawn.
     pub(super) fn light(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
         let description = ComputePassDescriptor { label: Some("light of grass"), timestamp_writes: None };
         let mut pass = encoder.begin_compute_pass(&description);
@@ -147,6 +149,9 @@ impl Grass {
             pass.set_index_buffer(loaded.corners.buffer.slice(..), IndexFormat::Uint16);
             for (list, pipeline) in (0..).zip(&self.draws) {
                 pass.set_pipeline(pipeline);
+                for (slot, list) in [(0, list), (1, list + 1)] {
+                    pass.set_vertex_buffer(slot, loaded.starts.buffer.slice(loaded.start_of(list)..));
+                }
                 pass.draw_indexed_indirect(&loaded.draws.buffer, DRAW * list);
             }
         }
@@ -157,6 +162,7 @@ impl Grass {
 fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
     let parts = [
         include_str!("frame.wgsl"),
+        include_str!("records.wgsl"),
         include_str!("shadows.wgsl"),
         include_str!("thinning.wgsl"),
         include_str!("canopy.wgsl"),
@@ -164,6 +170,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
         wind::FUNCTIONS,
         FUNCTIONS,
         include_str!("meadow.wgsl"),
+        include_str!("lit_sets.wgsl"),
         own,
     ];
     let text = parts.iter().fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
@@ -185,26 +192,27 @@ fn lighting(gpu: &Gpu, scene: &LitScene, layout: &PipelineLayout) -> ComputePipe
     gpu.context.known.computing((module.clone(), "light_sets".to_owned()), make)
 }
 
-/// The stage of a pass, and which of its buffers are only read, after the species, what is shown, and the sets: those that
-/// are kept, where their lists start; then the draws and marks, or the lit sets.
-type Own = (ShaderStages, &'static [bool]);
-const CHOOSES: Own = (ShaderStages::COMPUTE, &[false, false, false, false, true]);
-const LIGHTS: Own = (ShaderStages::COMPUTE, &[true, true, false]);
-const DRAWS: Own = (ShaderStages::VERTEX, &[true; 3]);
+/// The stage of a pass, and its bindings after the species and what is shown: the sets, those that are kept, where their lists
+/// start, and the draws, marks and runs; or the lit sets and their blades behind the lists, or alone.
+type Own = (ShaderStages, &'static [BindingType]);
+const CHOOSES: Own = (ShaderStages::COMPUTE, &[READ, CHANGED, CHANGED, CHANGED, CHANGED, READ]);
+const LIGHTS: Own = (ShaderStages::COMPUTE, &[READ, READ, READ, records::WRITTEN, records::WRITTEN]);
+const DRAWS: Own = (ShaderStages::VERTEX, &[records::READ, records::READ]);
+
+const UNIFORM: BindingType = buffer(BufferBindingType::Uniform);
+const READ: BindingType = buffer(BufferBindingType::Storage { read_only: true });
+const CHANGED: BindingType = buffer(BufferBindingType::Storage { read_only: false });
+
+const fn buffer(ty: BufferBindingType) -> BindingType {
+    BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+}
 
 /// The bindings of a pass.
-fn layout(gpu: &Gpu, (visibility, read_only): Own) -> BindGroupLayout {
-    let storage = |read_only| BufferBindingType::Storage { read_only };
-    let kinds = [BufferBindingType::Uniform, BufferBindingType::Uniform, storage(true)];
-    let entries: Vec<_> = (0..)
-        .zip(kinds.into_iter().chain(read_only.iter().copied().map(storage)))
-        .map(|(binding, ty)| BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty: BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
-            count: None,
-        })
-        .collect();
+fn layout(gpu: &Gpu, (visibility, own): Own) -> BindGroupLayout {
+    let kinds = [UNIFORM; 2].into_iter().chain(own.iter().copied());
+    let entries = (0..).zip(kinds);
+    let entries: Vec<_> =
+        entries.map(|(binding, ty)| BindGroupLayoutEntry { binding, visibility, ty, count: None }).collect();
     let description = BindGroupLayoutDescriptor { label: Some("grass"), entries: &entries };
     gpu.context.device.create_bind_group_layout(&description)
 }

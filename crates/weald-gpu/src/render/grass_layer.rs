@@ -6,11 +6,12 @@ use std::sync::{Arc, Weak};
 use weald::Error;
 use weald::error::{DeviceError, DeviceErrorKind, Limit, Quantity};
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
-use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
-use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
+use weald::grow::grass::{Area, BLADES, Grasses, Instance, Meadow, Packed};
+use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindingResource, BufferUsages};
 
 use super::blades;
 use super::grass_look::GrassLook;
+use super::records::Records;
 use super::runs::{self, RUN};
 use crate::gpu::Gpu;
 use crate::memory::Store;
@@ -19,8 +20,8 @@ use crate::transfer::uniform;
 /// Side of the squares in metres, at the change of which sets are made anew.
 const SQUARE: f64 = 16.0;
 
-/// Most sets at once: 128 MiB of instances.
-const MAX_SETS: f64 = (1_u32 << 23) as f64;
+/// Most sets at once: records of their blades lie in a texture of at most 8192 by 8192 texels.
+const MAX_SETS: f64 = (5_u32 << 20) as f64;
 
 /// Bytes of a set, of its place in a list, and of the marks of a run.
 const SET: u64 = 16;
@@ -29,9 +30,6 @@ const MARKS: u64 = 4;
 
 /// Bytes of the bounds of a run.
 const BOUNDS: u64 = 16;
-
-/// Bytes of what all blades of a chosen set have in common.
-const LIT: u64 = 32;
 
 /// Bytes of the corner of a triangle.
 const CORNER: u64 = 2;
@@ -97,7 +95,8 @@ pub(super) struct LoadedSets {
     pub(super) cull: BindGroup,
     pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
-    pub(super) lit: Store,
+    /// Chosen sets and their blades as vertices read them.
+    pub(super) lit: [Records; 2],
     /// Those of the triangles of an instance that is drawn.
     pub(super) corners: Store,
     _others: [Store; 3],
@@ -246,6 +245,11 @@ impl LoadedSets {
     pub(super) fn runs(&self) -> u32 {
         self.count.div_ceil(RUN)
     }
+
+    /// Where in `starts` the start of a list is, in bytes; after the last list its end.
+    pub(super) fn start_of(&self, list: u64) -> u64 {
+        4 * list * u64::from(self.runs())
+    }
 }
 
 /// The sets that may be drawn from within a square, the smallest pixels included: the farther from it, the fewer.
@@ -295,7 +299,7 @@ struct Stores {
     draws: Store,
     marks: Store,
     runs: Store,
-    lit: Store,
+    lit: [Records; 2],
     corners: Store,
 }
 
@@ -310,11 +314,14 @@ impl Stores {
             choice: uniform(gpu, "what is shown of grass", choice)?,
             sets: store("sets of grass", SET * count, storage)?,
             kept: store("grass in sight", CHOSEN * count, storage)?,
-            starts: store("starts of the lists of grass", starts, storage)?,
+            starts: store("starts of the lists of grass", starts, storage | BufferUsages::VERTEX)?,
             draws: store("draws of grass", DRAW * (lists + 1), storage | BufferUsages::INDIRECT)?,
             marks: store("marks of grass", MARKS * runs, storage)?,
             runs: store("runs of grass", BOUNDS * runs, storage)?,
-            lit: store("lit grass", LIT * count, storage)?,
+            lit: [
+                Records::new(gpu, "lit grass", count)?,
+                Records::new(gpu, "blades of grass", u64::from(BLADES) * count)?,
+            ],
             corners: store(
                 "corners of blades",
                 CORNER * corners as u64,
@@ -331,21 +338,21 @@ impl Stores {
         [to_choose, to_light, to_draw]: &[BindGroupLayout; 3],
     ) -> Result<LoadedSets, Error> {
         let Self { choice, sets, kept, starts, draws, marks, runs, lit, corners } = self;
-        let drawn = [grasses, &choice, &sets, &kept, &starts];
-        let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks, &runs]].concat())?;
-        let with_lit = [&drawn[..], &[&lit]].concat();
-        let light = bind(gpu, to_light, &with_lit)?;
-        let draw = bind(gpu, to_draw, &with_lit)?;
+        let all = [grasses, &choice, &sets, &kept, &starts, &draws, &marks, &runs];
+        let all = all.map(|store| store.buffer.as_entire_binding());
+        let with_lit = |stores: usize| [&all[..stores], &lit.each_ref().map(Records::resource)].concat();
+        let cull = bind(gpu, to_choose, &all)?;
+        let light = bind(gpu, to_light, &with_lit(5))?;
+        let draw = bind(gpu, to_draw, &with_lit(2))?;
         let others = [marks, runs, choice];
         Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, corners, _others: others })
     }
 }
 
-fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGroup, Error> {
-    let entries: Vec<_> = (0..)
-        .zip(stores)
-        .map(|(binding, store)| BindGroupEntry { binding, resource: store.buffer.as_entire_binding() })
-        .collect();
+fn bind(gpu: &Gpu, layout: &BindGroupLayout, bound: &[BindingResource<'_>]) -> Result<BindGroup, Error> {
+    let entries = (0..).zip(bound);
+    let entries: Vec<_> =
+        entries.map(|(binding, resource)| BindGroupEntry { binding, resource: resource.clone() }).collect();
     let description = BindGroupDescriptor { label: Some("grass"), layout, entries: &entries };
     gpu.context.attempt("binding grass", || Ok(gpu.context.device.create_bind_group(&description)))
 }

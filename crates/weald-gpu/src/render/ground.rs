@@ -7,22 +7,31 @@ use weald::Error;
 use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingResource, BindingType, RenderPass, RenderPipeline, ShaderStages,
+    BindGroupLayoutEntry, BindingResource, BindingType, Color, RenderPass, RenderPipeline, ShaderStages,
     TextureSampleType, TextureViewDimension,
 };
 
-use super::ground_pipelines::{Light, Parts};
+use super::ground_pipelines::{Light, Over, Parts};
 use super::targets::Targets;
 use super::terrain::Terrain;
 use crate::gpu::Gpu;
 
 /// Group and binding of the depths.
 pub(super) const DEPTHS_GROUP: u32 = 2;
-const DEPTHS_BINDING: u32 = 1;
+pub(super) const DEPTHS_BINDING: u32 = 1;
 
-/// Bindings of the depths of what is nearest, and of the light of clouds.
-const FRONT_BINDING: u32 = 4;
+/// Bindings of the depths of what is nearest, of the light of clouds, and of the light that is drawn by then.
+pub(super) const FRONT_BINDING: u32 = 4;
 const CLOUDS_BINDING: u32 = 5;
+const LIGHT_BINDING: u32 = 8;
+
+/// The groups of depths: alone, with the light of clouds, and with the light that is drawn by then.
+const ALONE: usize = 0;
+const WITH_CLOUDS: usize = 1;
+const WITH_LIGHT: usize = 2;
+
+/// Which bindings are in each: depths of the ground and of what is nearest, clouds, light.
+const MEMBERS: [&[usize]; 3] = [&[0, 1], &[0, 1, 2], &[0, 1, 3]];
 
 /// How the depths are declared in a shader, for pictures of so many samples.
 pub(super) fn declaration(samples: u32) -> String {
@@ -41,8 +50,8 @@ pub(super) fn depths_entry(samples: u32, visibility: ShaderStages) -> BindGroupL
     BindGroupLayoutEntry { binding: DEPTHS_BINDING, visibility, ty, count: None }
 }
 
-/// The layouts of what holds the depths, and of the same with the light of clouds.
-pub(super) fn depths_layouts(gpu: &Gpu, samples: u32) -> [BindGroupLayout; 2] {
+/// The layouts of the groups of depths.
+pub(super) fn depths_layouts(gpu: &Gpu, samples: u32) -> [BindGroupLayout; 3] {
     let ground = depths_entry(samples, ShaderStages::FRAGMENT);
     let ty = BindingType::Texture {
         sample_type: TextureSampleType::Float { filterable: true },
@@ -53,26 +62,30 @@ pub(super) fn depths_layouts(gpu: &Gpu, samples: u32) -> [BindGroupLayout; 2] {
         ground,
         BindGroupLayoutEntry { binding: FRONT_BINDING, ..ground },
         BindGroupLayoutEntry { binding: CLOUDS_BINDING, ty, ..ground },
+        BindGroupLayoutEntry { binding: LIGHT_BINDING, ty, ..ground },
     ];
-    [2, 3].map(|count| {
-        let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &entries[..count] };
+    MEMBERS.map(|members| {
+        let entries: Vec<_> = members.iter().map(|&member| entries[member]).collect();
+        let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &entries[..] };
         gpu.context.device.create_bind_group_layout(&description)
     })
 }
 
-/// The depths of a picture, without and with the light of its clouds.
-pub(super) fn depths_groups(gpu: &Gpu, layouts: &[BindGroupLayout; 2], targets: &Targets) -> [BindGroup; 2] {
+/// The groups of depths of a picture.
+pub(super) fn depths_groups(gpu: &Gpu, layouts: &[BindGroupLayout; 3], targets: &Targets) -> [BindGroup; 3] {
     let bound = [
         (DEPTHS_BINDING, &targets.ground),
         (FRONT_BINDING, &targets.depth),
         (CLOUDS_BINDING, &targets.clouds),
+        (LIGHT_BINDING, &targets.light),
     ];
     let entries = bound.map(|(binding, canvas)| {
         let resource = BindingResource::TextureView(&canvas.view);
         BindGroupEntry { binding, resource }
     });
-    [0, 1].map(|which| {
-        let (layout, entries) = (&layouts[which], &entries[..which + 2]);
+    [ALONE, WITH_CLOUDS, WITH_LIGHT].map(|which| {
+        let entries = MEMBERS[which].iter().map(|&member| entries[member].clone()).collect::<Vec<_>>();
+        let (layout, entries) = (&layouts[which], &entries[..]);
         let description = BindGroupDescriptor { label: Some("depths"), layout, entries };
         gpu.context.device.create_bind_group(&description)
     })
@@ -80,22 +93,23 @@ pub(super) fn depths_groups(gpu: &Gpu, layouts: &[BindGroupLayout; 2], targets: 
 
 /// In the order in which they are drawn, with the kinds as `ground.wgsl` numbers them.
 const LIGHTS: [Light; 3] = [
-    Light { fragment: "far_fragment", kinds: 1..3, is_laid_over: false },
-    Light { fragment: "near_fragment", kinds: 3..5, is_laid_over: false },
-    Light { fragment: "water_fragment", kinds: 2..4, is_laid_over: true },
+    Light { fragment: "far_fragment", kinds: 1..3, over: Over::Nothing },
+    Light { fragment: "near_fragment", kinds: 3..5, over: Over::Nothing },
+    Light { fragment: "water_fragment", kinds: 2..4, over: Over::Flowing },
 ];
 
-/// The same of the ground beyond the border.
-const LIGHTS_BEYOND: [Light; 3] = [
-    Light { fragment: "far_beyond_fragment", kinds: 11..13, is_laid_over: false },
-    Light { fragment: "near_beyond_fragment", kinds: 13..15, is_laid_over: false },
-    Light { fragment: "water_beyond_fragment", kinds: 12..14, is_laid_over: true },
+/// The same of the ground beyond the border, and of what it fades into.
+const LIGHTS_BEYOND: [Light; 4] = [
+    Light { fragment: "far_beyond_fragment", kinds: 11..13, over: Over::Nothing },
+    Light { fragment: "near_beyond_fragment", kinds: 13..15, over: Over::Nothing },
+    Light { fragment: "water_beyond_fragment", kinds: 12..14, over: Over::Flowing },
+    Light { fragment: "farthest_fragment", kinds: 11..15, over: Over::Still },
 ];
 
 /// What lies behind the landscape.
 const BACKDROP: [Light; 2] = [
-    Light { fragment: "sky_fragment", kinds: 9..10, is_laid_over: false },
-    Light { fragment: "plain_fragment", kinds: 10..11, is_laid_over: false },
+    Light { fragment: "sky_fragment", kinds: 9..10, over: Over::Nothing },
+    Light { fragment: "plain_fragment", kinds: 10..11, over: Over::Nothing },
 ];
 
 /// How much further the kinds behind edges are numbered, as the shader has it.
@@ -106,6 +120,10 @@ const BEHIND_EDGE: u32 = 4;
 const FIRST_NEAR: u32 = 3;
 const FIRST_BEYOND: u32 = 11;
 const DETAIL_FROM: f32 = 0.30;
+
+/// What becomes of the opacity of ground under water, which says whether the next picture takes its light.
+const STAYS: Color = Color::WHITE;
+const FORGOTTEN: Color = Color::TRANSPARENT;
 
 /// The kinds that a light draws, behind edges or not, and those of them where nothing is close by.
 fn kinds_of(light: &Light, is_behind: bool) -> [Range<u32>; 2] {
@@ -149,8 +167,9 @@ pub(super) struct Ground {
     kind: RenderPipeline,
     /// The light of clouds, and what draws it before all else; `None` where there are none.
     clouds: Option<[RenderPipeline; 2]>,
-    /// With the kinds that each draws, and those of them where nothing is close by.
-    lights: Vec<(RenderPipeline, [Range<u32>; 2])>,
+    /// With the kinds that each draws, those of them where nothing is close by, and what becomes of the opacity below where
+    /// something is.
+    lights: Vec<(RenderPipeline, [Range<u32>; 2], Color)>,
     backdrop: [RenderPipeline; 2],
 }
 
@@ -172,13 +191,14 @@ impl Ground {
         );
         let mut made = parts.context.side_by_side("making the pipelines of light", &works)?.into_iter();
         let backdrop = [made.next(), made.next()].map(|made| made.expect("as many as were asked for"));
-        let kinds = lights.iter().map(|&(light, is_behind)| kinds_of(light, is_behind));
+        let ages = |over| if over == Over::Flowing { FORGOTTEN } else { STAYS };
+        let drawn = lights.iter().map(|&(light, is_behind)| (kinds_of(light, is_behind), ages(light.over)));
         Ok(Self {
             depth: parts.depth("ground_vertex"),
             beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
             clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
-            lights: made.zip(kinds).collect(),
+            lights: made.zip(drawn).map(|(pipeline, (kinds, ages))| (pipeline, kinds, ages)).collect(),
             backdrop,
         })
     }
@@ -208,8 +228,8 @@ impl Ground {
     }
 
     /// Draws the kind of each pixel.
-    pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
-        pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+    pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &[BindGroup; 3]) {
+        pass.set_bind_group(DEPTHS_GROUP, &depths[WITH_LIGHT], &[]);
         pass.set_pipeline(&self.kind);
         pass.draw(0..3, 0..1);
     }
@@ -217,11 +237,15 @@ impl Ground {
     /// Draws the light of every pixel that has a depth.
     pub(super) fn draw_light(&self, pass: &mut RenderPass<'_>, depths: &BindGroup, in_sight: InSight) {
         pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
-        for (pipeline, [all, far]) in &self.lights {
-            let kinds = if in_sight.is_near { all } else { far };
-            if !kinds.is_empty() {
-                pass.set_pipeline(pipeline);
-                pass.draw(0..3, kinds.clone());
+        for (pipeline, [all, far], ages) in &self.lights {
+            let near = far.end..if in_sight.is_near { all.end } else { far.end };
+            // Water that is close by flows: its pixels are no longer light of ground that the next picture takes.
+            for (kinds, ages) in [(far.clone(), STAYS), (near, *ages)] {
+                if !kinds.is_empty() {
+                    pass.set_pipeline(pipeline);
+                    pass.set_blend_constant(ages);
+                    pass.draw(0..3, kinds);
+                }
             }
         }
     }
@@ -231,7 +255,7 @@ impl Ground {
     pub(super) fn draw_backdrop(
         &self,
         pass: &mut RenderPass<'_>,
-        depths: &[BindGroup; 2],
+        depths: &[BindGroup; 3],
         in_sight: InSight,
     ) {
         for (which, is_seen) in in_sight.backdrop.into_iter().enumerate() {

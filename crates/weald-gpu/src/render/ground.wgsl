@@ -46,17 +46,6 @@ fn whole_vertex(
     return vec4<f32>(vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, f32(kind) * KIND, 1.0);
 }
 
-// The direction in which a place of the picture looks, as long as makes it 1 forward.
-fn along_at(position: vec2<f32>) -> vec3<f32> {
-    let at = vec2<f32>(2.0, -2.0) * position / vec2<f32>(textureDimensions(ground_depths)) + vec2<f32>(-1.0, 1.0);
-    return frame.forward.xyz + at.x * frame.right.w * frame.right.xyz + at.y * frame.up.w * frame.up.xyz;
-}
-
-// The point of the picture at such a depth.
-fn point_at(position: vec2<f32>, depth: f32) -> vec3<f32> {
-    return frame.eye.xyz + along_at(position) * (frame.forward.w / depth);
-}
-
 // What something else hides.
 const HIDDEN = 0u;
 
@@ -102,12 +91,10 @@ fn kind_of(surface: SeenSurface) -> u32 {
     let is_far = length(surface.point - frame.eye.xyz) * frame.eye.w >= DETAIL_FROM;
     let goes_on = HORIZON && is_beyond(place);
     var is_wet = false;
-    // Loops of one turn or none: software would look up both in a condition.
-    for (var look = 0u; look < select(1u, 0u, goes_on); look++) {
-        is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
-    }
-    for (var look = 0u; look < select(0u, 1u, goes_on); look++) {
+    if goes_on {
         is_wet = wet_share_beyond(place, ground_beyond(place)) > 0.0;
+    } else {
+        is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
     }
     let first = select(0u, BEYOND, goes_on);
     return first + select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
@@ -116,19 +103,25 @@ fn kind_of(surface: SeenSurface) -> u32 {
 // The kind of what is seen at a place of the picture: of a surface, or of what is behind the ground where it has no samples.
 fn kind_seen(position: vec2<f32>, surface: SeenSurface) -> u32 {
     var kind = backdrop_at(position);
-    for (var look = 0u; look < select(0u, 1u, surface.samples != 0u); look++) {
+    if surface.samples != 0u {
         kind = kind_of(surface);
     }
     return kind;
 }
 
+// The light that is drawn by then: of ground, as its opacity says, where the picture before had it.
+@group(2) @binding(8) var light_by_then: texture_2d<f32>;
+
+fn is_lit(position: vec2<f32>) -> bool {
+    return textureLoad(light_by_then, vec2<i32>(position), 0).w > 0.0;
+}
+
 @fragment
 fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
-    var kind = HIDDEN;
-    for (var look = 0u; look < select(1u, 0u, is_hidden(position.xy, 0)); look++) {
-        kind = kind_seen(position.xy, surface_of(position.xy, false));
+    if is_hidden(position.xy, 0) | is_lit(position.xy) {
+        discard;
     }
-    return f32(kind) * KIND;
+    return f32(kind_seen(position.xy, surface_of(position.xy, false))) * KIND;
 }
 
 @fragment
@@ -264,7 +257,7 @@ fn skin_light(point: vec3<f32>, look: Look, skin: SurfaceSample) -> vec4<f32> {
         let ray = ViewRay(look.direction, look.ray_length, look.footprint);
         radiance = with_canopy(in_sun, under_sky, lawn, point, look.normal, ray, seen, look.sun);
     }
-    return vec4<f32>(seen_through_air(radiance, look), 1.0);
+    return vec4<f32>(seen_through_air(radiance, look), GROUND_LIGHT);
 }
 
 // Dry ground from afar.
@@ -283,14 +276,6 @@ fn water_light(point: vec3<f32>, look: Look) -> vec4<f32> {
     let depth = select(look.river_depth, -look.above / scene.scale.y, look.above < 0.0);
     let radiance = water_radiance(point, depth, look);
     return vec4<f32>(seen_through_air(radiance, look), look.wet);
-}
-
-// The same beyond the border, lost before what lies farthest; the sea goes on to the horizon.
-fn lost(light: vec4<f32>, point: vec3<f32>, look: Look) -> vec4<f32> {
-    if is_at_sea(point.z) {
-        return light;
-    }
-    return vec4<f32>(lost_beyond(place_of(point), light.xyz, farthest_radiance(look.direction)), light.w);
 }
 
 // The light along a direction below the horizon that meets nothing of what is drawn: of the open sea, or of even land.
@@ -342,20 +327,27 @@ fn water_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
 @fragment
 fn far_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let point = seen_point(position);
-    let look = look_beyond(point);
-    return lost(far_light(point, look), point, look);
+    return far_light(point, look_beyond(point));
 }
 
 @fragment
 fn near_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let point = seen_point(position);
-    let look = look_beyond(point);
-    return lost(near_light(point, look), point, look);
+    return near_light(point, look_beyond(point));
 }
 
 @fragment
 fn water_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let point = seen_point(position);
-    let look = look_beyond(point);
-    return lost(water_light(point, look), point, look);
+    return water_light(point, look_beyond(point));
+}
+
+// What lies farthest, into which all beyond the border fades; the sea goes on to the horizon.
+@fragment
+fn farthest_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let point = seen_point(position);
+    if is_at_sea(point.z) {
+        discard;
+    }
+    return vec4<f32>(farthest_radiance(backdrop_direction(position.xy)), lost_share(place_of(point)));
 }

@@ -13,11 +13,22 @@ use super::layouts::depth_state;
 use super::targets::LIGHT;
 use crate::gpu::context::Context;
 
-/// A kind of light, the kinds of ground that have it, and whether it is laid over what is there.
+/// A kind of light, the kinds of ground that have it, and what it is laid over.
 pub(super) struct Light {
     pub(super) fragment: &'static str,
     pub(super) kinds: Range<u32>,
-    pub(super) is_laid_over: bool,
+    pub(super) over: Over,
+}
+
+/// Whether light is laid over what is there, by its own share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Over {
+    /// It is all of the light.
+    Nothing,
+    /// It changes from picture to picture where it is close by.
+    Flowing,
+    /// It changes no more than the ground below.
+    Still,
 }
 
 /// What a scene has, without which shaders leave out what draws it.
@@ -46,8 +57,8 @@ impl SceneParts {
 pub(super) struct Parts<'a> {
     pub(super) context: &'a Context,
     pub(super) module: &'a ShaderModule,
-    /// With the depths, without, and with the light of clouds as well.
-    pub(super) layouts: [&'a PipelineLayout; 3],
+    /// With the depths, without, with the light of clouds as well, and with that which is drawn by then.
+    pub(super) layouts: [&'a PipelineLayout; 4],
     pub(super) patches: &'a [Option<VertexBufferLayout<'a>>],
     pub(super) samples: u32,
     pub(super) has: SceneParts,
@@ -67,14 +78,18 @@ struct Drawn<'a> {
     depth: Option<(bool, CompareFunction)>,
 }
 
-/// What is laid over what is there, by its own share.
+/// What is laid over what is there, by its own share; the opacity below is kept as the pass says.
 const LAID_OVER: BlendState = BlendState {
     color: BlendComponent {
         src_factor: BlendFactor::SrcAlpha,
         dst_factor: BlendFactor::OneMinusSrcAlpha,
         operation: BlendOperation::Add,
     },
-    alpha: BlendComponent::OVER,
+    alpha: BlendComponent {
+        src_factor: BlendFactor::Zero,
+        dst_factor: BlendFactor::Constant,
+        operation: BlendOperation::Add,
+    },
 };
 
 /// What lets through a share of what is there.
@@ -111,12 +126,27 @@ impl Parts<'_> {
         let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
         self.pipeline(&Drawn {
             key: format!("{fragment} {}", self.has.horizon),
-            layout: self.layouts[0],
+            layout: self.layouts[3],
             samples: self.samples,
             vertex: ("whole_vertex", &[]),
             fragment: Some(fragment),
             constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has.horizon))],
             target: None,
+            // What has a kind already keeps it: no other is as far.
+            depth: Some((true, CompareFunction::Greater)),
+        })
+    }
+
+    /// The light of the picture before, and the kind of pixels that have it.
+    pub(super) fn reprojected(&self, layout: &PipelineLayout) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: "reprojected".to_owned(),
+            layout,
+            samples: 1,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some("reprojected_fragment"),
+            constants: &[],
+            target: Some(ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL }),
             depth: Some((true, CompareFunction::Always)),
         })
     }
@@ -132,7 +162,7 @@ impl Parts<'_> {
     }
 
     fn light_from(&self, layout: &PipelineLayout, light: &Light, is_behind: bool) -> RenderPipeline {
-        let blend = light.is_laid_over.then_some(LAID_OVER);
+        let blend = (light.over != Over::Nothing).then_some(LAID_OVER);
         self.pipeline(&Drawn {
             key: format!("{} {is_behind} {} {}", light.fragment, self.has_lawn, self.has.horizon),
             layout,

@@ -1,6 +1,9 @@
 //! What the pipelines of a picture have in common: the layouts of their groups, and how they treat depth.
 
-use wgpu::{BindGroupLayout, CompareFunction, DepthBiasState, DepthStencilState, StencilState};
+use wgpu::{
+    BindGroupLayout, CompareFunction, DepthBiasState, DepthStencilState, StencilState, VertexAttribute,
+    VertexBufferLayout, VertexStepMode,
+};
 
 use super::frame::Frame;
 use super::maps::Maps;
@@ -30,4 +33,9 @@ pub(super) fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthS
         stencil: StencilState::default(),
         bias: DepthBiasState::default(),
     }
+}
+
+/// A buffer of which all vertices of a draw read the same number.
+pub(super) fn shared(attributes: &[VertexAttribute]) -> VertexBufferLayout<'_> {
+    VertexBufferLayout { array_stride: 0, step_mode: VertexStepMode::Instance, attributes }
 }

@@ -42,15 +42,6 @@ struct Choice {
 
 @group(2) @binding(1) var<uniform> choice: Choice;
 
-// A chosen set: its root, the share of the sun that it sees, the push of the wind, and the leaves around it.
-struct LitSet {
-    root: vec3<f32>,
-    sun: f32,
-    push: vec2<f32>,
-    leaves: f32,
-    unused: f32,
-}
-
 // Where a set stands, on the ground.
 fn grass_root(place: vec2<f32>) -> vec3<f32> {
     let point = vec3<f32>(place.x, -place.y, 0.0);

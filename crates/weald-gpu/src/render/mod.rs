@@ -9,6 +9,7 @@
 mod blades;
 mod canopy;
 mod cascades;
+mod casters;
 mod chosen;
 mod coming;
 mod device;
@@ -22,6 +23,7 @@ mod grass_layer;
 mod grass_look;
 mod ground;
 mod ground_pipelines;
+mod instances;
 mod lattice;
 mod layouts;
 mod levels;
@@ -34,7 +36,9 @@ mod patch_heights;
 mod picking;
 mod picture;
 mod plants;
+mod records;
 mod renderer;
+mod reprojection;
 mod returning;
 mod runs;
 mod screen;
@@ -47,6 +51,8 @@ mod textures;
 mod timing;
 mod tone_mapping;
 mod tried;
+#[cfg(test)]
+mod twins;
 mod upload;
 
 pub use chosen::Chosen;

@@ -1,6 +1,6 @@
 //! What one view is drawn onto, and how shaders see it.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use weald::Error;
 use wgpu::BindGroup;
@@ -8,6 +8,7 @@ use wgpu::BindGroup;
 use super::ground::depths_groups;
 use super::options::Options;
 use super::passes::Passes;
+use super::reprojection::Reprojection;
 use super::targets::Targets;
 use super::tone_mapping::ToneMapping;
 use crate::gpu::Gpu;
@@ -17,12 +18,14 @@ use crate::gpu::Gpu;
 pub(super) struct Onto {
     pub(super) options: Options,
     pub(super) targets: Targets,
-    /// The depths of the ground, as its light is drawn from them, without and with the light of clouds.
-    pub(super) depths: [BindGroup; 2],
+    /// The depths of the ground, as its light is drawn from them, alone, with the light of clouds, and with that drawn by then.
+    pub(super) depths: [BindGroup; 3],
     /// The light, as a picture is made from it.
     pub(super) light: BindGroup,
     /// What grass around a camera is kept for: it lives as long as the view does, whatever its size.
     pub(super) viewer: Arc<()>,
+    /// What a window keeps of its last picture.
+    pub(super) reprojection: Mutex<Reprojection>,
 }
 
 impl Onto {
@@ -36,6 +39,6 @@ impl Onto {
         let targets = Targets::new(gpu, options)?;
         let depths = depths_groups(gpu, &passes.depths, &targets);
         let light = film.light_of(gpu, &targets);
-        Ok(Self { options, targets, depths, light, viewer })
+        Ok(Self { options, targets, depths, light, viewer, reprojection: Mutex::default() })
     }
 }

@@ -10,6 +10,7 @@ use wgpu::{
     VertexStepMode,
 };
 
+use super::casters::Casters;
 use super::grass::Grass;
 use super::ground::{self, Ground, InSight};
 use super::ground_pipelines::{Parts, SceneParts};
@@ -17,6 +18,7 @@ use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::patch_heights;
 use super::picking;
 use super::plants::Plants;
+use super::reprojection::{LightBefore, ReprojectionPipeline, reprojection_layout};
 use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
 use super::timing::{Timer, Timestamp};
@@ -24,7 +26,7 @@ use crate::gpu::Gpu;
 use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 12] = [
+const SHADERS: [&str; 13] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
@@ -34,6 +36,7 @@ const SHADERS: [&str; 12] = [
     include_str!("patch_heights.wgsl"),
     include_str!("terrain.wgsl"),
     include_str!("ground.wgsl"),
+    include_str!("reprojection.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),
     include_str!("pick.wgsl"),
@@ -58,9 +61,11 @@ pub(super) struct Passes {
     ground: Ground,
     sides: RenderPipeline,
     rims: RenderPipeline,
-    /// Of the depths of the ground, without and with the light of clouds.
-    pub(super) depths: [BindGroupLayout; 2],
+    /// Of the groups of depths.
+    pub(super) depths: [BindGroupLayout; 3],
     pub(super) casters: Casters,
+    /// What takes light from the picture before; `None` where pixels have several samples.
+    pub(super) reprojection: Option<ReprojectionPipeline>,
     module: ShaderModule,
     picks: (PipelineLayout, BindGroupLayout),
     /// What works out the heights of patches.
@@ -68,31 +73,6 @@ pub(super) struct Passes {
     samples: u32,
     /// Whether grass stands on the ground.
     pub(super) has_lawn: bool,
-}
-
-/// The pipelines of what throws shadows.
-#[derive(Debug)]
-pub(super) struct Casters {
-    ground: RenderPipeline,
-    beyond: Option<RenderPipeline>,
-    sides: RenderPipeline,
-    rims: RenderPipeline,
-}
-
-impl Casters {
-    /// Draws the casters of a view, 1 for the first cascade.
-    pub(super) fn draw(&self, pass: &mut RenderPass<'_>, terrain: &Terrain, view: usize) {
-        pass.set_pipeline(&self.ground);
-        terrain.draw_ground(pass, view);
-        if let Some(beyond) = &self.beyond {
-            pass.set_pipeline(beyond);
-            terrain.draw_beyond(pass, view);
-        }
-        pass.set_pipeline(&self.sides);
-        terrain.draw_sides(pass, view);
-        pass.set_pipeline(&self.rims);
-        terrain.draw_rims(pass);
-    }
 }
 
 /// What a picture is drawn of.
@@ -106,6 +86,7 @@ pub(super) struct Drawing<'a> {
     /// Whether nothing throws shadows.
     pub(super) casts_nothing: bool,
     pub(super) in_sight: InSight,
+    pub(super) before: LightBefore<'a>,
     pub(super) timer: Option<&'a Timer>,
 }
 
@@ -116,9 +97,11 @@ struct Maker<'a> {
     /// Of what is drawn by heights of patches, and of what works those out.
     layout: PipelineLayout,
     filling: PipelineLayout,
-    with_depths: [PipelineLayout; 2],
+    with_depths: [PipelineLayout; 3],
     casters: PipelineLayout,
     picks: (PipelineLayout, BindGroupLayout),
+    /// Of what takes light from the picture before.
+    reprojection: (PipelineLayout, BindGroupLayout),
     samples: u32,
     has: SceneParts,
     has_lawn: bool,
@@ -153,6 +136,7 @@ impl Passes {
             };
             let depths = ground::depths_layouts(gpu, samples);
             let picks = picking::layout(gpu, samples);
+            let before = reprojection_layout(gpu);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
@@ -163,6 +147,7 @@ impl Passes {
                     .map(|depths| whole(&[Some(&frame.layout), Some(&maps.layout), Some(depths)])),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade), drawing]),
                 picks: (whole(&[Some(&frame.layout), Some(&maps.layout), Some(&picks)]), picks),
+                reprojection: (whole(&[Some(&frame.layout), None, Some(&before)]), before),
                 samples,
                 has: SceneParts::of(scene),
                 has_lawn,
@@ -171,7 +156,7 @@ impl Passes {
         })
     }
 
-    fn of(maker: &Maker<'_>, depths: [BindGroupLayout; 2]) -> Result<Self, Error> {
+    fn of(maker: &Maker<'_>, depths: [BindGroupLayout; 3]) -> Result<Self, Error> {
         let instances = |bytes, attributes| VertexBufferLayout {
             array_stride: bytes,
             step_mode: VertexStepMode::Instance,
@@ -188,17 +173,23 @@ impl Passes {
             let depth = (true, CompareFunction::Less);
             maker.caster(&Pipeline { name, buffers, depth })
         };
+        let parts = Parts {
+            context: maker.context,
+            module: &maker.module,
+            layouts: [&maker.with_depths[0], &maker.layout, &maker.with_depths[1], &maker.with_depths[2]],
+            patches: &patches,
+            samples: maker.samples,
+            has: maker.has,
+            has_lawn: maker.has_lawn,
+        };
+        let (before, layout) = &maker.reprojection;
         Ok(Self {
-            ground: Ground::new(Parts {
-                context: maker.context,
-                module: &maker.module,
-                layouts: [&maker.with_depths[0], &maker.layout, &maker.with_depths[1]],
-                patches: &patches,
-                samples: maker.samples,
-                has: maker.has,
-                has_lawn: maker.has_lawn,
-            })?,
+            ground: Ground::new(parts)?,
             depths,
+            reprojection: (maker.samples == 1).then(|| ReprojectionPipeline {
+                pipeline: parts.reprojected(before),
+                layout: layout.clone(),
+            }),
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
             casters: Casters {
@@ -247,7 +238,7 @@ impl Passes {
     pub(super) fn draw(
         &self,
         encoder: &mut CommandEncoder,
-        (targets, depths): (&Targets, &[BindGroup; 2]),
+        (targets, depths): (&Targets, &[BindGroup; 3]),
         groups: [&BindGroup; 2],
         drawing: Drawing<'_>,
         pick: Option<impl FnOnce(&mut CommandEncoder)>,
@@ -273,10 +264,11 @@ impl Passes {
             bind(&mut pass, groups);
             draw_what_grows(&mut pass, drawing);
         }
+        let takes = drawing.before.take(encoder, (targets, groups[0]), self.reprojection.as_ref());
         // What is hidden by now is not lit.
-        let mut pass = targets.kind_pass(encoder);
+        let mut pass = targets.kind_pass(encoder, takes);
         bind(&mut pass, groups);
-        self.ground.draw_kinds(&mut pass, &depths[0]);
+        self.ground.draw_kinds(&mut pass, depths);
         drop(pass);
         let mut pass = targets.ground_pass(encoder);
         bind(&mut pass, groups);
@@ -285,6 +277,7 @@ impl Passes {
             timer.note(&mut pass, Timestamp::Ground);
         }
         drop(pass);
+        drawing.before.keep(encoder, targets);
         if !drawing.bare && self.ground.has_clouds(drawing.in_sight) {
             let mut pass = targets.cloud_pass(encoder);
             bind(&mut pass, groups);

@@ -1,6 +1,6 @@
 //! A scene on a device: what is drawn of it, and in which order.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use weald::grow::Vegetation;
 use weald::picture::{Camera, Image, LitScene};
@@ -11,7 +11,7 @@ use super::canopy;
 use super::cascades::CASCADES;
 use super::coming::{Coming, SceneUpdate};
 use super::follower::Follower;
-use super::frame::{Drawn, Frame};
+use super::frame::{Drawn, Frame, PictureBefore};
 use super::grass::Grass;
 use super::grass_layer::Around;
 use super::grass_look::GrassLook;
@@ -24,6 +24,7 @@ use super::passes::{Drawing, Passes};
 use super::picking::{LandScale, Picking};
 use super::picture::Readback;
 use super::plants::Plants;
+use super::reprojection::{LightBefore, Moment};
 use super::shadows::{CascadeContent, Shadows};
 use super::terrain::Terrain;
 use super::textures::Canvas;
@@ -77,6 +78,8 @@ pub struct Renderer {
     pub(super) follower: Option<Follower>,
     /// What has become of the scene and is not on the device yet.
     pub(super) coming: Option<Coming>,
+    /// How often what lights or shades the ground has changed: light of before is then no longer taken.
+    pub(super) changes: u64,
     pub(super) has_water: bool,
     /// The height at which clouds begin.
     pub(super) cloud_base: Option<f32>,
@@ -122,7 +125,7 @@ impl Renderer {
         let heights = &terrain.patch_heights.layouts;
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout, heights };
         let passes = Passes::new(gpu, scene, layouts, (options.samples, has_lawn))?;
-        let film = ToneMapping::new(gpu, scene, &maps)?;
+        let film = ToneMapping::new(gpu, scene, (&frame, &maps))?;
         let own = Arc::new(Onto::new(gpu, (&passes, &film), options, Arc::default())?);
         Ok(Self {
             gpu: gpu.clone(),
@@ -142,6 +145,7 @@ impl Renderer {
             timer: None,
             follower: None,
             coming: None,
+            changes: 0,
             has_water: scene.has_water(),
             cloud_base: scene.cloud_base(),
             is_dry: false,
@@ -187,8 +191,14 @@ impl Renderer {
         let grown = (scene, landscape);
         self.grass = Grass::new(&self.gpu, grown, layouts, samples)?;
         self.plants = Plants::new(&self.gpu, grown, layouts, samples)?;
-        self.shadows.forget();
+        self.forget_light();
         Ok(())
+    }
+
+    /// What shades the ground has changed: its shadows are drawn anew, and no picture takes light from the one before.
+    pub(super) fn forget_light(&mut self) {
+        self.shadows.forget();
+        self.changes += 1;
     }
 
     /// Takes what a scene has become, for the next pictures of a window a few megabytes at a time, for one that comes back
@@ -209,10 +219,11 @@ impl Renderer {
         // Some of its rows are there with each picture: heights of before and after would leave cracks between patches.
         if self.coming.is_some() {
             self.terrain.patch_heights.forget();
+            self.changes += 1;
         }
         let is_there = self.coming.as_mut().is_some_and(|coming| coming.send(&self.gpu, &self.maps, waits));
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
-        self.shadows.forget();
+        self.forget_light();
         self.cloud_base = coming.cloud_base();
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
@@ -275,7 +286,13 @@ impl Renderer {
     ) -> Result<(), Error> {
         let Shot { onto, target, .. } = *shot;
         self.send_coming(shot.waits, encoder);
-        let (wanted, in_sight) = self.aim((onto, shot.waits), shot.camera, encoder)?;
+        let now = Moment { camera: *shot.camera, changes: self.changes, seconds: self.seconds };
+        let mut view = onto.reprojection.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut before = None;
+        if let Some(pipeline) = self.passes.reprojection.as_ref().filter(|_| !shot.waits) {
+            before = view.begin(&self.gpu, (&pipeline.layout, &onto.targets), &now)?;
+        }
+        let (wanted, in_sight) = self.aim((onto, shot.waits), (shot.camera, before), encoder)?;
         let into = &mut Upload { gpu: &self.gpu, encoder };
         let groups = [&self.frame.caster_group, &self.maps.group];
         self.terrain.patch_heights.fill(into, &self.passes.heights, groups)?;
@@ -287,6 +304,7 @@ impl Renderer {
             bare: self.look.bare,
             casts_nothing: self.look.casts_nothing,
             in_sight,
+            before: LightBefore::of(&view, !shot.waits, before.is_some()),
             timer,
         };
         if let Some(timer) = timer {
@@ -304,7 +322,12 @@ impl Renderer {
         let pick =
             picking.map(|picking| |encoder: &mut CommandEncoder| picking.encode(&self.gpu, encoder, groups));
         self.passes.draw(encoder, (&onto.targets, &onto.depths), groups, drawing, pick);
-        self.film.develop(&self.gpu, encoder, (&onto.light, &self.maps, timer), target)
+        let groups = [&self.frame.caster_group, &self.maps.group, &onto.light];
+        self.film.develop(&self.gpu, encoder, (groups, timer), target)?;
+        if !shot.waits {
+            view.end(now);
+        }
+        Ok(())
     }
 
     /// Selects what a camera sees, and encodes the choice of its grass and plants; says what cascades are to hold, and what is
@@ -312,7 +335,7 @@ impl Renderer {
     pub(super) fn aim(
         &mut self,
         (onto, waits): (&Onto, bool),
-        camera: &Camera,
+        (camera, before): (&Camera, Option<PictureBefore>),
         encoder: &mut CommandEncoder,
     ) -> Result<([CascadeContent; CASCADES], InSight), Error> {
         let size = onto.options.size;
@@ -324,11 +347,11 @@ impl Renderer {
         let from = self.look.detail_from.unwrap_or(camera.eye);
         let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from));
         let drawn = self.terrain.prepare(into, camera, size, (from, woods))?;
-        let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
+        let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, before, ..drawn };
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let wanted = CascadeContent::of(&drawn, pixel_angle);
         drawn.stale = self.shadows.stale(&wanted);
-        self.frame.write(into, camera, size[0], &drawn);
+        self.frame.write(into, camera, size, &drawn);
         for number in (0..CASCADES).filter(|&number| drawn.stale[number]) {
             let stand = if number == CASCADES - 1 {
                 self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
@@ -336,7 +359,7 @@ impl Renderer {
             } else {
                 self.terrain.prepare_cascade(into, number, (camera, size), &drawn.cascades)?
             };
-            self.frame.write_cascade(into, (number, stand), (camera, size[0]), &drawn);
+            self.frame.write_cascade(into, (number, stand), (camera, size), &drawn);
         }
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &mut self.plants {

@@ -9,8 +9,9 @@ use wgpu::{
 };
 
 use super::cascades::{CASCADES, TEXELS};
+use super::casters::Casters;
 use super::frame::Drawn;
-use super::passes::{Casters, Drawing};
+use super::passes::Drawing;
 use super::targets::DEPTH;
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;

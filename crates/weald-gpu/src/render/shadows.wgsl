@@ -30,13 +30,18 @@ fn blocker_depth(place: vec2<f32>, cascade: i32, depth: f32) -> f32 {
     let last = vec2<i32>(size) - 1;
     var sum = 0.0;
     var count = 0.0;
-    for (var look = 0; look < 9; look++) {
+    var look = 0;
+    loop {
         let offset = vec2<f32>(f32(look % 3 - 1), f32(look / 3 - 1)) * 2.0;
         let texel = clamp(vec2<i32>(place * size + offset), vec2<i32>(0), last);
         let found = textureLoad(shadow_depths, texel, cascade, 0);
         if found < depth {
             sum += found;
             count += 1.0;
+        }
+        look++;
+        if look >= 9 {
+            break;
         }
     }
     return select(2.0, sum / max(count, 1.0), count > 0.0);
@@ -59,13 +64,23 @@ fn open_share(place: vec2<f32>, cascade: i32, depth: f32, spacing: f32) -> f32 {
     let first = floor(middle - 1.5 * spacing);
     let end = floor(middle + 1.5 * spacing) + 2.0;
     var sum = 0.0;
-    for (var south = first.y; south < end.y; south += 2.0) {
+    var south = first.y;
+    loop {
         let down = look_weights(vec2<f32>(south, south + 1.0) - middle.y, spacing);
-        for (var east = first.x; east < end.x; east += 2.0) {
+        var east = first.x;
+        loop {
             let across = look_weights(vec2<f32>(east, east + 1.0) - middle.x, spacing);
             let corner = (vec2<f32>(east, south) + 1.0) / size;
             let open = textureGatherCompare(shadow_depths, shadow_between, corner, cascade, depth);
             sum += down.x * dot(across, open.wz) + down.y * dot(across, open.xy);
+            east += 2.0;
+            if east >= end.x {
+                break;
+            }
+        }
+        south += 2.0;
+        if south >= end.y {
+            break;
         }
     }
     return sum;
@@ -112,18 +127,19 @@ fn sun_seen(point: vec3<f32>, normal: vec3<f32>) -> f32 {
 fn sun_seen_on(point: vec3<f32>, smooth_point: vec3<f32>, normal: vec3<f32>) -> f32 {
     var passed = 1.0;
     var seen = 0.0;
-    for (var cascade = first_cascade(point); cascade < CASCADES; cascade++) {
+    let first = first_cascade(point);
+    var cascade = min(first, CASCADES - 1);
+    loop {
         let at = abs(in_cascade(point, cascade).xy);
         let inside = 1.0 - max(at.x, at.y);
-        if inside <= 0.0 {
-            continue;
-        }
         // The last one ends where the landscape does.
-        let share = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
+        let reached = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
+        let share = select(0.0, reached, inside > 0.0 && first < CASCADES);
         let here = select(point, smooth_point, cascade == CASCADES - 1);
         seen += passed * share * seen_in_cascade(here, normal, cascade);
         passed *= 1.0 - share;
-        if passed <= 0.0 {
+        cascade++;
+        if cascade >= CASCADES || passed <= 0.0 {
             break;
         }
     }

@@ -19,7 +19,7 @@ pub(super) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 /// What nothing drew on: no light of a landscape.
-const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
+const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 0.0 };
 
 /// The canvases of a picture.
 #[derive(Debug)]
@@ -49,7 +49,7 @@ impl Targets {
             Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_DST) };
         let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
-        let light = Shape::flat(size, LIGHT, attachment | seen);
+        let light = Shape::flat(size, LIGHT, attachment | seen | TextureUsages::COPY_SRC);
         let clouds = Shape::flat(size.map(|side| side.div_ceil(2)), LIGHT, attachment | seen);
         Ok(Self {
             depth: Canvas::new(gpu, "depth", depth)?,
@@ -80,11 +80,21 @@ impl Targets {
         );
     }
 
-    /// The pass that draws of which kind the ground is.
-    pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+    /// The pass that draws light of the picture before, with the kind of pixels that have it.
+    pub(super) fn reprojection_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(0.0), StoreOp::Store)),
+            ..described("reprojection", &[Some(attachment)], None)
+        })
+    }
+
+    /// The pass that draws of which kind the ground is, where it has none yet from the picture before.
+    pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder, has_some: bool) -> RenderPass<'a> {
+        let load = if has_some { LoadOp::Load } else { LoadOp::Clear(0.0) };
         encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("kinds"),
-            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(0.0), StoreOp::Store)),
+            depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Store)),
             ..RenderPassDescriptor::default()
         })
     }
@@ -116,7 +126,7 @@ impl Targets {
 
     /// The pass that draws the light of clouds.
     pub(super) fn cloud_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
-        let ops = Operations { load: LoadOp::Clear(Color::TRANSPARENT), store: StoreOp::Store };
+        let ops = Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store };
         let attachment = RenderPassColorAttachment {
             view: &self.clouds.view,
             depth_slice: None,

@@ -2,26 +2,28 @@
 
 use weald::Error;
 use weald::picture::{Camera, LitScene, Rim, SceneTexture};
-use wgpu::{Buffer, BufferUsages, CommandEncoderDescriptor, IndexFormat, RenderPass};
+use wgpu::{CommandEncoderDescriptor, RenderPass};
 
 use super::cascades::{CASCADES, Cascades};
 use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
+use super::instances::{Indices, Instances};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
 use super::patch_heights::{HEIGHTS_GROUP, PatchHeights};
 use super::spacing::{Ranges, errors};
 use super::upload::Upload;
 use crate::gpu::Gpu;
-use crate::memory::Store;
 
 /// Pixels that the error of the ground may take on the screen.
 const ERROR: f32 = 1.0;
 
+/// Metres that trees are high, and pixels up to which they are seen so small that their shadows may be those for an eye
+/// some metres off.
+const TREE: f32 = 25.0;
+const SMALL_TREE: f32 = 20.0;
+
 /// Vertices of a wall.
 const WALL: u32 = 6;
-
-/// Patches for which there is room at first.
-const ROOM: usize = 1024;
 
 /// The ground of a scene, and the patches of its last picture.
 #[derive(Debug)]
@@ -127,6 +129,8 @@ impl Terrain {
     ) -> Result<Drawn, Error> {
         let stand = self.viewpoint(detail_from);
         let ranges = self.ranges(camera, size);
+        let pixel_angle = camera.pixel_angle(size[0] as usize);
+        let is_among_trees = woods > 0.0 && !self.is_far_above_trees(detail_from, pixel_angle);
         self.patch_heights.begin();
         self.select(into, (0, &Frustum::of(camera)), stand, &ranges)?;
         Ok(Drawn {
@@ -137,12 +141,13 @@ impl Terrain {
             is_dry: false,
             cascades: Cascades::new(
                 self.sun,
-                (camera, detail_from, woods > 0.0),
+                (camera, detail_from, is_among_trees),
                 &self.bounds(),
                 self.has_horizon,
             ),
             woods,
             stale: [true; CASCADES],
+            before: None,
         })
     }
 
@@ -172,6 +177,16 @@ impl Terrain {
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
         Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
+    }
+
+    /// Whether a point is so far above all ground around it that trees are small in pixels of an angle.
+    fn is_far_above_trees(&self, point: [f32; 3], pixel_angle: f32) -> bool {
+        let far = TREE / (SMALL_TREE * pixel_angle);
+        let [width, height] = self.lattice.metres;
+        let side = 2.0 * far / width.min(height);
+        let corner = self.viewpoint(point).place.map(|at| at - 0.5 * side);
+        let [_, [.., high]] = self.heights.box_of(corner, side);
+        point[2] - high > far
     }
 
     /// Height in metres of a camera above all ground, that beyond the border too.
@@ -326,64 +341,4 @@ fn grid(across: u32, down: u32) -> Vec<u16> {
         [a, c, b, b, c, d]
     });
     triangles.collect()
-}
-
-/// Triangles by the numbers of their vertices.
-#[derive(Debug)]
-struct Indices {
-    store: Store,
-    count: u32,
-}
-
-impl Indices {
-    fn new(gpu: &Gpu, what: &str, indices: &[u16]) -> Result<Self, Error> {
-        let bytes: &[u8] = bytemuck::cast_slice(indices);
-        let usage = BufferUsages::INDEX | BufferUsages::COPY_DST;
-        let store = Store::new(gpu, what, bytes.len() as u64, usage)?;
-        gpu.context.queue.write_buffer(&store.buffer, 0, bytes);
-        Ok(Self { store, count: indices.len() as u32 })
-    }
-
-    fn draw<T: bytemuck::Pod>(&self, pass: &mut RenderPass<'_>, instances: &Instances<T>) {
-        if instances.count == 0 {
-            return;
-        }
-        pass.set_vertex_buffer(0, instances.buffer().slice(..));
-        pass.set_index_buffer(self.store.buffer.slice(..), IndexFormat::Uint16);
-        pass.draw_indexed(0..self.count, 0, 0..instances.count);
-    }
-}
-
-/// Instances, of which the buffer grows.
-#[derive(Debug)]
-struct Instances<T> {
-    what: &'static str,
-    store: Store,
-    count: u32,
-    kind: std::marker::PhantomData<T>,
-}
-
-impl<T: bytemuck::Pod> Instances<T> {
-    fn new(gpu: &Gpu, what: &'static str) -> Result<Self, Error> {
-        Ok(Self { what, store: Self::room(gpu, what, ROOM)?, count: 0, kind: std::marker::PhantomData })
-    }
-
-    fn room(gpu: &Gpu, what: &str, count: usize) -> Result<Store, Error> {
-        let bytes = (count * size_of::<T>()) as u64;
-        Store::new(gpu, what, bytes, BufferUsages::VERTEX | BufferUsages::COPY_DST)
-    }
-
-    fn buffer(&self) -> &Buffer {
-        &self.store.buffer
-    }
-
-    fn write(&mut self, into: &mut Upload<'_>, instances: &[T]) -> Result<(), Error> {
-        let bytes: &[u8] = bytemuck::cast_slice(instances);
-        if bytes.len() as u64 > self.store.buffer.size() {
-            self.store = Self::room(into.gpu, self.what, instances.len().next_power_of_two())?;
-        }
-        into.write(&self.store, bytes);
-        self.count = instances.len() as u32;
-        Ok(())
-    }
 }

@@ -111,7 +111,7 @@ fn side_colour(point: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let place = clamp(place_of(point), vec2<f32>(0.5), scene.grid.xy + 0.5);
     let outside = point + normal * 1.5 * scene.scale.w;
     let radiance = side_radiance(place, point, normal, sun_seen(outside, normal));
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / ray_length, ray_length)), 1.0);
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / ray_length, ray_length)), OTHER_LIGHT);
 }
 
 struct Wall {

@@ -1,15 +1,5 @@
 // The light of what is thin and green, from either side: it sends light back, and some shines through, yellower.
 
-// A corner of a blade or leaf.
-struct Leaf {
-    @builtin(position) position: vec4<f32>,
-    @location(0) point: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) colour: vec3<f32>,
-    // Shares of the sun and of the sky that are seen among others.
-    @location(3) light: vec2<f32>,
-}
-
 // The light of a leaf at a point, which sees shares of the sun and of the sky, lets a share of light through, and looks
 // to the sky so much more than its side does.
 fn leaf_light(
@@ -33,5 +23,5 @@ fn leaf_light(
     let up = normalize(normal + vec3<f32>(0.0, 0.0, skyward));
     let sky = skylight_on(seen_at(skylight, share_of(place_of(point))), up) * light.y;
     let radiance = colour * (sun + sky) / PI;
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, ray_length)), 1.0);
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, ray_length)), OTHER_LIGHT);
 }

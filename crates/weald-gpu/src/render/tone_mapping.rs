@@ -13,11 +13,19 @@ use wgpu::{
     TextureSampleType, TextureView, TextureViewDimension, VertexState,
 };
 
+use super::frame::Frame;
 use super::layouts::STAGE_GROUP;
 use super::maps::Maps;
 use super::targets::Targets;
 use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
+
+/// Its shaders, each after those that it calls.
+const SHADERS: [&str; 3] =
+    [include_str!("frame.wgsl"), include_str!("adaptation.wgsl"), include_str!("tone_mapping.wgsl")];
+
+/// Group of the light that is brought to a picture.
+const LIGHT_GROUP: u32 = 2;
 
 /// The film, with a pipeline for each format that it was asked for.
 #[derive(Debug)]
@@ -29,8 +37,8 @@ pub(super) struct ToneMapping {
 }
 
 impl ToneMapping {
-    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &Maps) -> Result<Self, Error> {
-        let text = scene.shader(STAGE_GROUP) + "\n" + include_str!("tone_mapping.wgsl");
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, (frame, maps): (&Frame, &Maps)) -> Result<Self, Error> {
+        let text = SHADERS.iter().fold(scene.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
         let device = &gpu.context.device;
         let entry = BindGroupLayoutEntry {
             binding: 0,
@@ -48,7 +56,7 @@ impl ToneMapping {
                 device.create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
             let layout = PipelineLayoutDescriptor {
                 label,
-                bind_group_layouts: &[Some(&group), Some(&maps.layout)],
+                bind_group_layouts: &[Some(&frame.caster_layout), Some(&maps.layout), Some(&group)],
                 immediate_size: 0,
             };
             Ok(Self {
@@ -87,7 +95,7 @@ impl ToneMapping {
         &mut self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
-        (light, maps, timer): (&BindGroup, &Maps, Option<&Timer>),
+        ([frame, maps, light], timer): ([&BindGroup; 3], Option<&Timer>),
         target: &TextureView,
     ) -> Result<(), Error> {
         let pipeline = self.compile(gpu, target.texture().format())?;
@@ -101,8 +109,9 @@ impl ToneMapping {
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, light, &[]);
-        pass.set_bind_group(STAGE_GROUP, &maps.group, &[]);
+        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(STAGE_GROUP, maps, &[]);
+        pass.set_bind_group(LIGHT_GROUP, light, &[]);
         pass.draw(0..3, 0..1);
         Ok(())
     }

@@ -45,7 +45,7 @@ impl Renderer {
         self.look = look;
         let chosen = context.attempt("choosing", || {
             let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            self.aim((&Arc::clone(&self.own), true), camera, &mut encoder)?;
+            self.aim((&Arc::clone(&self.own), true), (camera, None), &mut encoder)?;
             context.queue.submit([encoder.finish()]);
             Ok(())
         });

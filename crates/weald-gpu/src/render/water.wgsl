@@ -77,11 +77,16 @@ fn foam_share(point: vec2<f32>, footprint: f32, velocity: vec2<f32>, lost: f32) 
     }
     let along = carried(point);
     var bubbles = vec2<f32>(0.0);
-    for (var turn = 0; turn < 2; turn++) {
+    var turn = 0;
+    loop {
         let here = point - velocity * along.phases[turn];
         let seed = u32(turn) * 16u;
         let clumps = octaves_at(Octaves(3.0, 6u, 0.62, 0x57u + seed), here, footprint).value;
         bubbles[turn] = clumps;
+        turn++;
+        if turn >= 2 {
+            break;
+        }
     }
     let texture = mix(bubbles.x, bubbles.y, along.share);
     return clamp((2.2 * texture + 1.1 * fast - 0.55) * 1.1, 0.0, 1.0) * (0.25 + 0.5 * fast);
@@ -134,33 +139,46 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> MirroredLand {
     }
     var ray_length = before;
     var nearest = MirroredLand(before, 0.0);
-    for (var look = 0; look < MARCH_STEPS; look++) {
+    var is_met = false;
+    var look = 0;
+    loop {
         let point = start + direction * ray_length;
         let place = place_of(point);
         let is_outside = any(place < vec2<f32>(0.5)) || any(place > scene.grid.xy + 0.5);
-        if is_outside || point.z > scene.scale.z + MIRRORED_SPREAD * ray_length {
-            return nearest;
-        }
-        if point.z < rough_height(place) {
-            for (var halving = 0; halving < 5; halving++) {
-                let middle = 0.5 * (before + ray_length);
-                let here = start + direction * middle;
-                if here.z < rough_height(place_of(here)) {
-                    ray_length = middle;
-                } else {
-                    before = middle;
-                }
+        let is_past = is_outside || point.z > scene.scale.z + MIRRORED_SPREAD * ray_length;
+        is_met = !is_past && point.z < rough_height(place);
+        let goes_on = !is_past && !is_met;
+        if goes_on {
+            let share = share_below(start, point, ray_length);
+            if share > nearest.share {
+                nearest = MirroredLand(ray_length, share);
             }
-            return MirroredLand(ray_length, 1.0);
+            before = ray_length;
+            ray_length = ray_length * FURTHER + 0.25 * scene.scale.w;
         }
-        let share = share_below(start, point, ray_length);
-        if share > nearest.share {
-            nearest = MirroredLand(ray_length, share);
+        look++;
+        if !goes_on || look >= MARCH_STEPS {
+            break;
         }
-        before = ray_length;
-        ray_length = ray_length * FURTHER + 0.25 * scene.scale.w;
     }
-    return nearest;
+    if !is_met {
+        return nearest;
+    }
+    var halving = 0;
+    loop {
+        let middle = 0.5 * (before + ray_length);
+        let here = start + direction * middle;
+        if here.z < rough_height(place_of(here)) {
+            ray_length = middle;
+        } else {
+            before = middle;
+        }
+        halving++;
+        if halving >= 5 {
+            break;
+        }
+    }
+    return MirroredLand(ray_length, 1.0);
 }
 
 // Shares of light that water mirrors between which land is looked for along the mirrored ray: below, as much of it is mirrored
@@ -175,9 +193,7 @@ fn reflected_light(point: vec3<f32>, look: Look, ripples: Ripples, share: f32, s
     let rough = mix(scene.bounce.xyz, sky, open);
     let sharp = ramp(share, MARCHED.x, MARCHED.y);
     var light = rough;
-    // A loop of one turn or none: software would go through what a condition leaves out.
-    let looks = select(0u, 1u, sharp > 0.0);
-    for (var turn = 0u; turn < looks; turn++) {
+    if sharp > 0.0 {
         let broad = mirrored(look.direction, ripples.broad, look.tilt);
         light = mix(rough, mirrored_light(point, broad, sky, look.ray_length), sharp);
     }

@@ -11,7 +11,7 @@ use weald::erode::hydraulic::{Boundary, Hydraulic, Transport};
 use weald_gpu::Gpu;
 
 const STEPS: u32 = 3000;
-const SIDE: usize = 48;
+const SIDE: usize = 32;
 
 /// Share of the water, and of the solid that moved, that may be missing: as on the CPU.
 const SHARE: f64 = 1e-5;
@@ -56,7 +56,7 @@ fn all_processes_of_stava_lose_nothing_in_3000_steps() {
     for boundary in [Boundary::Closed, Boundary::Open] {
         let mut land = layered(rough(SIDE, SIDE, 50.0, 3));
         let before = land.clone();
-        let (sources, drains) = (vec![spring(12.0, 16.0)], vec![spring(35.0, 30.0)]);
+        let (sources, drains) = (vec![spring(8.0, 11.0)], vec![spring(23.0, 20.0)]);
         let transport = Transport::MacCormack;
         let step = with!(stava(STEPS), [Stava] { transport: transport, sources: sources, drains: drains });
         let step = Hydraulic { boundary, ..step };

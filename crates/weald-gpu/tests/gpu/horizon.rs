@@ -1,15 +1,23 @@
 //! Land and sea that go on to the horizon: as the ray-marched view has them, and without an end.
 
+use crate::marched::{PIXELS, distances_of};
 use crate::programs::gpu;
-use crate::render::{distances, magenta, renderer};
+use crate::render::{magenta, renderer};
 use crate::scenes::{above, lakes, mountains, view};
 use weald::Landscape;
-use weald::picture::{Around, Camera, LitScene, View};
+use weald::picture::{Around, Camera, LitScene, RayMarcher, View};
 use weald_gpu::TestLook;
 
 /// A sun overhead, which throws no shadows: the march knows none of those that the ground around throws.
 fn open() -> View {
-    View { around: Some(Around::Horizon), sun_altitude_deg: 90.0, visibility: Some(40_000.0), ..view() }
+    // One ray a pixel, as a device shades it once.
+    View {
+        samples: 1,
+        around: Some(Around::Horizon),
+        sun_altitude_deg: 90.0,
+        visibility: Some(40_000.0),
+        ..view()
+    }
 }
 
 /// The mountains, of which a sea covers the lowest third.
@@ -32,9 +40,12 @@ fn cameras(scene: &LitScene) -> Vec<Camera> {
 fn what_goes_on_to_the_horizon_looks_as_the_ray_marched_view_has_it() {
     let Some(gpu) = gpu() else { return };
     for landscape in [mountains(), coast()] {
-        let scene = LitScene::new(&open(), &landscape).expect("a scene");
-        for (number, camera) in cameras(&scene).into_iter().enumerate() {
-            let (mean, worst) = distances(&gpu, &open(), &landscape, Some(camera));
+        let scene = LitScene::with_crags(&open(), &landscape).expect("a scene");
+        let cameras = cameras(&scene);
+        let mut marcher = RayMarcher::of(scene, PIXELS);
+        for (number, camera) in cameras.into_iter().enumerate() {
+            marcher.look_from(camera, PIXELS);
+            let (mean, worst) = distances_of(&gpu, &marcher);
             assert!(mean < 0.015 && worst < 0.05, "camera {number}: mean {mean}, one in twenty {worst}");
         }
     }
@@ -53,12 +64,16 @@ fn clouds_and_their_shadows_are_where_the_ray_marched_view_has_them() {
     // From below, from afar, from among them and from above.
     let among = above(&clear, [1600.0, 3100.0], 2200.0, 8.0, 0.0);
     let over = above(&clear, [1600.0, 3100.0], 4500.0, 35.0, 40.0);
-    for camera in [upward, clear.camera(), among, over] {
-        let view = View { clouds: 0.6, ..open() };
-        let (mean, worst) = distances(&gpu, &view, &landscape, Some(camera));
+    let cloudy = View { clouds: 0.6, ..open() };
+    let [mut clear, mut cloudy] = [&open(), &cloudy]
+        .map(|view| RayMarcher::of(LitScene::with_crags(view, &landscape).expect("a scene"), PIXELS));
+    for camera in [upward, clear.scene().camera(), among, over] {
+        clear.look_from(camera, PIXELS);
+        cloudy.look_from(camera, PIXELS);
+        let (mean, worst) = distances_of(&gpu, &cloudy);
         assert!(mean < 0.015 && worst < 0.05, "mean {mean}, one in twenty {worst}");
-        let [cloudy, clear] =
-            [&view, &open()].map(|view| view.seen_from(&landscape, camera).expect("marched"));
+        let [cloudy, clear] = [&cloudy, &clear]
+            .map(|marcher| renderer(&gpu, marcher.scene(), 4).render(&camera).expect("drawn"));
         let changed = cloudy.rgb.iter().zip(&clear.rgb).filter(|(a, b)| a.abs_diff(**b) > 12).count();
         assert!(changed * 10 > cloudy.rgb.len(), "{changed} of {} bytes show clouds", cloudy.rgb.len());
     }

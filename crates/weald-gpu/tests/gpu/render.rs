@@ -1,11 +1,12 @@
 //! What is drawn on a device: without cracks, without leaps, the same twice, and as the ray-marched view has it.
 
+use crate::marched::{PIXELS, distances, distances_of};
 use crate::programs::gpu;
 use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::grid::Mask;
 use weald::material::Material;
 use weald::parameter::Nested;
-use weald::picture::{Camera, Drape, GroundColour, Image, LitScene, Oklab, Scale, View, linear_of_hex};
+use weald::picture::{Camera, Drape, GroundColour, Image, LitScene, RayMarcher, Scale, View};
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
@@ -83,7 +84,6 @@ fn two_views_that_are_encoded_before_either_is_drawn_are_those_that_are_drawn_al
     assert_eq!(renderer.two_for_a_test([&one, &other]).expect("drawn"), alone);
 }
 
-/// Means of Oklab over squares of eight pixels, so that edges and dither do not count.
 #[test]
 fn a_renderer_that_was_resized_500_times_draws_as_a_new_one_and_holds_no_more() {
     let Some(gpu) = gpu() else { return };
@@ -111,37 +111,6 @@ fn a_renderer_that_was_resized_500_times_draws_as_a_new_one_and_holds_no_more() 
         assert!(renderer.resize([0, 180]).is_err() && renderer.resize([1 << 20, 180]).is_err());
         assert!(renderer.render(&camera).expect("drawn") == at_first, "what was refused changes nothing");
     }
-}
-
-fn squares(image: &Image) -> Vec<Oklab> {
-    let side = 8;
-    let mut means = Vec::new();
-    for top in (0..image.height - side).step_by(side) {
-        for left in (0..image.width - side).step_by(side) {
-            let mut sum = [0.0_f64; 3];
-            for pixel in 0..side * side {
-                let [r, g, b] = image.pixel(left + pixel % side, top + pixel / side).map(u32::from);
-                let Oklab { lightness, a, b } = Oklab::of(linear_of_hex(r << 16 | g << 8 | b));
-                sum = [sum[0] + lightness, sum[1] + a, sum[2] + b];
-            }
-            let [lightness, a, b] = sum.map(|sum| sum / (side * side) as f64);
-            means.push(Oklab { lightness, a, b });
-        }
-    }
-    means
-}
-
-/// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
-pub(crate) fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
-    let scene = LitScene::with_crags(view, landscape).expect("a scene");
-    let camera = camera.unwrap_or_else(|| scene.camera());
-    let drawn = renderer(gpu, &scene.seen_from(camera), 4).render(&camera).expect("drawn");
-    let marched = view.seen_from(landscape, camera).expect("marched");
-    let pairs = squares(&drawn).into_iter().zip(squares(&marched));
-    let mut distances: Vec<f64> = pairs.map(|(a, b)| a.distance(b)).collect();
-    distances.sort_by(f64::total_cmp);
-    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-    (mean, distances[distances.len() * 19 / 20])
 }
 
 #[test]
@@ -219,8 +188,11 @@ fn walls_and_bushes_agree(gpu: &Gpu, landscape: &Landscape, [far, near_bounds]: 
         let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 0.0);
         // From there squares of the pictures are smaller than blocks of the wall, and what stones add is not seen.
         let near = above(&scene, wall, 150.0, 55.0, uphill);
-        for (camera, bounds) in [(None, far), (Some(low), far), (Some(near), near_bounds)] {
-            let (mean, worst) = distances(gpu, &view, landscape, camera);
+        let cragged = LitScene::with_crags(&view, landscape).expect("a scene");
+        let mut marcher = RayMarcher::of(cragged, PIXELS);
+        for (camera, bounds) in [(marcher.scene().camera(), far), (low, far), (near, near_bounds)] {
+            marcher.look_from(camera, PIXELS);
+            let (mean, worst) = distances_of(gpu, &marcher);
             assert!(
                 mean < bounds[0] && worst < bounds[1],
                 "sun at {sun_altitude_deg}°: mean {mean}, one in twenty {worst}, at most {bounds:?}"

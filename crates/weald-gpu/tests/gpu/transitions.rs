@@ -14,6 +14,9 @@ use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
 const SIZE: [u32; 2] = [480, 270];
 const REDUCED: usize = 3;
 
+/// The same of trees, of which a picture takes seconds on software.
+const SIZE_OF_TREES: [u32; 2] = [240, 135];
+
 /// Most that may be left of the blades of a meadow, and of the ground.
 const MAX_RESIDUE_OF_BLADES: f32 = 0.15;
 const MAX_RESIDUE_OF_GROUND: f32 = 0.07;
@@ -46,15 +49,15 @@ fn leap(renderer: &mut Renderer, camera: &Camera, metres: f32) -> [f32; 2] {
     [whole, left]
 }
 
-fn renderer(gpu: &Gpu, scene: &LitScene) -> Renderer {
-    Renderer::new(gpu, scene, RenderOptions { size: SIZE, samples: 4 }).expect("it can be drawn")
+fn renderer(gpu: &Gpu, scene: &LitScene, size: [u32; 2]) -> Renderer {
+    Renderer::new(gpu, scene, RenderOptions { size, samples: 4 }).expect("it can be drawn")
 }
 
 /// A meadow through a telescope, so far away.
 fn grassy(gpu: &Gpu, distance: f32, field_of_view_deg: f64) -> (Renderer, Camera) {
     let landscape = meadow();
     let scene = LitScene::new(&View { field_of_view_deg, ..treeless() }, &landscape).expect("a scene");
-    let mut renderer = renderer(gpu, &scene);
+    let mut renderer = renderer(gpu, &scene, SIZE);
     renderer.plant(&scene, &landscape).expect("planted");
     let eye = above(&scene, [60.0, 95.0], 1.2, 0.0, 0.0);
     let ground = scene.top_at([60.0, 95.0 - f64::from(distance)]).expect("on the land");
@@ -78,7 +81,7 @@ fn levels_of_the_ground_slide_into_each_other() {
     let Some(gpu) = gpu() else { return };
     // Crowns that are painted on the ground would show more of it than its form.
     let scene = LitScene::new(&treeless(), &mountains()).expect("a scene");
-    let mut renderer = renderer(&gpu, &scene);
+    let mut renderer = renderer(&gpu, &scene, SIZE);
     let camera = above(&scene, [1600.0, 2600.0], 60.0, 12.0, 5.0);
     let [whole, left] = leap(&mut renderer, &camera, 120.0);
     println!("ground: {left} left of {whole}");
@@ -90,9 +93,9 @@ fn levels_of_the_ground_slide_into_each_other() {
 fn trees_of_woods_become_coarser_and_pass_into_the_ground_without_leaps() {
     let Some(gpu) = gpu() else { return };
     let landscape = mountains();
-    for (metres, down, angle) in [(40.0, 12.0, 30.0), (150.0, 20.0, 12.0), (300.0, 22.0, 6.0)] {
+    for (metres, down, angle) in [(40.0, 12.0, 15.0), (150.0, 20.0, 6.0), (300.0, 23.2, 3.0)] {
         let scene = LitScene::new(&View { field_of_view_deg: angle, ..view() }, &landscape).expect("a scene");
-        let mut renderer = renderer(&gpu, &scene);
+        let mut renderer = renderer(&gpu, &scene, SIZE_OF_TREES);
         renderer.plant(&scene, &landscape).expect("planted");
         let camera = above(&scene, [1600.0, 2600.0], metres, down, 5.0);
         let [whole, left] = leap(&mut renderer, &camera, 60.0);

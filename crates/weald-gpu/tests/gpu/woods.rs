@@ -85,6 +85,35 @@ fn scene_of(view: &View, landscape: &Landscape) -> LitScene {
     LitScene::new(view, landscape).expect("a scene")
 }
 
+/// The middle of a part of the woods where each of seven by seven squares has a tree.
+fn dense_wood(scene: &LitScene) -> [f64; 2] {
+    let is_dense =
+        |[x, y]: [i32; 2]| (0..49).all(|at| scene.tree_in([x + at % 7 - 3, y - at / 7 + 3]).is_some());
+    let squares = (0..200 * 200).map(|at| [100 + at % 200, -100 - at / 200]);
+    let [x, y] = squares.into_iter().find(|&square| is_dense(square)).expect("a wood");
+    [x, -y].map(|square| f64::from(square) * f64::from(SPACING_OF_TREES))
+}
+
+#[test]
+fn a_picture_from_under_crowns_is_exposed_for_their_shade_and_one_from_above_them_is_not() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    let scene = scene_of(&View { woods: 1.0, ..view() }, &landscape);
+    let mut renderer = renderer(&gpu, &scene, &landscape);
+    let place = dense_wood(&scene);
+    let mut brightness = |metres: f32| {
+        let bytes = renderer.render(&above(&scene, place, metres, 35.0, 0.0)).expect("drawn").rgb;
+        bytes.iter().map(|&byte| f64::from(byte)).sum::<f64>() / bytes.len() as f64
+    };
+    let [under, above_all] = [1.7, 60.0].map(&mut brightness);
+    println!("{under} under crowns, {above_all} above them");
+    assert!(under > 45.0, "the ground of a wood is black: {under} of 255");
+    assert!(
+        (25.0..55.0).contains(&above_all),
+        "from above it is exposed for open ground: {above_all} of 255"
+    );
+}
+
 #[test]
 fn ground_that_rises_lifts_its_trees() {
     let Some(gpu) = gpu() else { return };

@@ -99,7 +99,7 @@ impl RayMarcher {
         if around.is_at_sea(ray.at(hit.ray_length)[2]) {
             return veiled;
         }
-        around.lost(hit.place, veiled, self.farthest(around, ray))
+        mix(veiled, self.farthest(around, ray), around.lost_share(hit.place))
     }
 
     /// The light along a ray below the horizon that meets nothing of what is drawn: of the open sea, or of even land.

@@ -21,6 +21,10 @@ const TURNS: usize = 16;
 const CLEARANCE: f32 = 2.0;
 const CLEARANCE_CELLS: f32 = 0.15;
 
+/// Most of the shorter side of a landscape that [`CLEARANCE`] takes: two metres above a model of a few decimetres, an
+/// eye that is level with it would not have it in the picture.
+const CLEARANCE_SHARE: f32 = 0.1;
+
 /// A pinhole camera. Its coordinates are metres east and north of the landscape's north-western corner, and up from
 /// the lowest ground, heights times the exaggeration. All else counts metres southward: the second coordinate here is
 /// minus that.
@@ -188,7 +192,9 @@ fn first(places: Option<&Places>) -> Option<[f64; 2]> {
 fn lowest_eye(terrain: &Terrain, eye: Vector) -> f32 {
     let place = terrain.place(eye);
     let ground = if terrain.is_valid(place) { terrain.top.at(place) } else { terrain.base };
-    ground + CLEARANCE.max(CLEARANCE_CELLS * terrain.cell())
+    let size = terrain.top.size();
+    let shorter_side = size.columns.min(size.rows) as f32 * terrain.cell();
+    ground + CLEARANCE.min(CLEARANCE_SHARE * shorter_side).max(CLEARANCE_CELLS * terrain.cell())
 }
 
 /// The point so high above the ground of a place in metres from the north-western corner.
@@ -301,6 +307,17 @@ mod tests {
                 let place = terrain.place(camera.eye);
                 prop_assert!(!terrain.is_valid(place) || camera.eye[2] >= terrain.top.at(place) + 1.9);
             }
+        }
+    }
+
+    #[test]
+    fn a_model_of_a_decimetre_is_in_the_picture_of_a_camera_level_with_it() {
+        let terrain = terrain([1, 1], 0.1, 0.0, 0);
+        let view = View { azimuth_deg: 0.0, altitude_deg: 0.0, field_of_view_deg: 10.0, ..View::default() };
+        let camera = Camera::new(&view, &terrain, 1.0);
+        for point in outline(&terrain) {
+            let seen = camera.project(point);
+            assert!(seen.is_some_and(|[x, y]| x.abs() < 1.0 && y.abs() < 1.0), "{point:?} at {seen:?}");
         }
     }
 

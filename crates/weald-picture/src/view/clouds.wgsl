@@ -56,16 +56,22 @@ fn cloud_puff(point: vec3<f32>, footprint: f32) -> f32 {
     var strength = 1.0;
     var wavelength = CLOUDS_PUFFS;
     var place = point;
-    for (var octave = 0u; octave < CLOUDS_PUFF_OCTAVES; octave++) {
-        let seen = strength * grain_visible(footprint, wavelength);
-        if seen <= 0.0 {
-            break;
-        }
+    var seen = grain_visible(footprint, wavelength);
+    if seen <= 0.0 {
+        return sum;
+    }
+    var octave = 0u;
+    loop {
         let here = solid_grain(place / wavelength, CLOUDS_PUFF_SEED + octave * 0x9e3779b9u);
         sum += seen * (abs(here.value) - CLOUDS_PUFF_MEAN);
         place = vec3<f32>(0.8 * place.x + 0.6 * place.y, 0.8 * place.y - 0.6 * place.x, place.z);
         strength *= CLOUDS_PUFF_GAIN;
         wavelength *= 0.5;
+        seen = strength * grain_visible(footprint, wavelength);
+        octave++;
+        if octave >= CLOUDS_PUFF_OCTAVES || seen <= 0.0 {
+            break;
+        }
     }
     return sum;
 }
@@ -142,8 +148,7 @@ fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
 fn pale_cloud(light: vec3<f32>, start: vec3<f32>, direction: vec3<f32>, reach: f32) -> vec4<f32> {
     let above = clamp((start.z - scene.cloud_height.x) / (CLOUDS_THICK * scene.scale.y), 0.0, 1.0);
     var veiled = light;
-    // A loop of one turn or none: software would go through what a condition leaves out.
-    for (var turn = 0u; turn < select(0u, 1u, is_above(above, 0.0, reach)); turn++) {
+    if is_above(above, 0.0, reach) {
         veiled = mix(light, veil(light, start, direction, reach), above);
     }
     return vec4<f32>(veiled, exp((above - 1.0) * reach / CLOUDS_LOST));
@@ -159,36 +164,53 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32>
     }
     var left = 1.0;
     let levels = cloud_levels(stretch, blur);
+    if levels.x < 1.0 {
+        return clouds;
+    }
     var slice = 0.0;
     var before = 0.0;
     var finer = 1.0;
-    while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
-        let reach = stretch.x + slice * levels.y;
-        let apart = levels.y / finer;
-        let footprint = max(apart, blur * reach);
-        let here = within_cloud(start + direction * reach, footprint);
-        if here > -CLOUDS_SIDE && finer < CLOUDS_FINER {
-            // The side is looked for from the level before, in small steps.
-            finer = CLOUDS_FINER;
-            slice = max(slice - 1.0 + 1.0 / CLOUDS_FINER, 0.0);
-            continue;
+    loop {
+        var reach = 0.0;
+        var footprint = 0.0;
+        var middle = 0.0;
+        var hidden = 0.0;
+        // On to the next level at which something is hidden, which is lit then: software would light all levels.
+        loop {
+            reach = stretch.x + slice * levels.y;
+            let apart = levels.y / finer;
+            footprint = max(apart, blur * reach);
+            let here = within_cloud(start + direction * reach, footprint);
+            if here > -CLOUDS_SIDE && finer < CLOUDS_FINER {
+                // The side is looked for from the level before, in small steps.
+                finer = CLOUDS_FINER;
+                slice = max(slice - 1.0 + 1.0 / CLOUDS_FINER, 0.0);
+            } else {
+                // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
+                let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
+                hidden = left * (1.0 - exp(-CLOUDS_DENSE * apart * part.x));
+                middle = part.y * apart;
+                before = here;
+                if here > -CLOUDS_SIDE || fract(slice) > 0.0 {
+                    slice += 1.0 / finer;
+                } else {
+                    // Nothing is met over so many levels, whatever lies between.
+                    finer = 1.0;
+                    slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
+                }
+            }
+            if hidden > CLOUDS_UNSEEN / CLOUDS_FINER || slice > levels.x - 1.0 {
+                break;
+            }
         }
-        // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
-        let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
-        let hidden = left * (1.0 - exp(-CLOUDS_DENSE * apart * part.x));
         if hidden > CLOUDS_UNSEEN / CLOUDS_FINER {
-            let at = start + direction * (reach - part.y * apart);
+            let at = start + direction * (reach - middle);
             let light = pale_cloud(lit_cloud(at, direction, footprint), start, direction, reach);
             clouds += hidden * light.w * vec4<f32>(light.xyz, -1.0);
             left -= hidden;
         }
-        before = here;
-        if here > -CLOUDS_SIDE || fract(slice) > 0.0 {
-            slice += 1.0 / finer;
-        } else {
-            // Nothing is met over so many levels, whatever lies between.
-            finer = 1.0;
-            slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
+        if slice > levels.x - 1.0 || left <= CLOUDS_UNSEEN {
+            break;
         }
     }
     return clouds;

@@ -85,8 +85,9 @@ const SHORE = vec2<f32>(2.5, 0.028);
 // Share of the trees of the point in question that are drawn as such, and so not on the ground.
 var<private> trees_drawn: f32 = 0.0;
 
-// What lies under trees that are drawn as such.
-const LITTER = vec3<f32>(0.034, 0.032, 0.016);
+// What lies under trees that are drawn as such, and how much of the ground it hides.
+const LITTER = vec3<f32>(0.066, 0.043, 0.021);
+const LITTERED = 0.9;
 
 struct SurfacePoint {
     place: vec2<f32>,
@@ -254,8 +255,10 @@ fn beach_at(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
 fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32, conifers: f32) -> SurfaceSample {
     let seen = seen_crown(spot.point.xy, density, spot.footprint, aslant(spot));
     let canopy = canopy_of(seen, density, spot.footprint, scene.sun.xyz);
-    let littered = mix(open.albedo, LITTER, 0.8 * trees_drawn * ramp(density, 0.1, 0.6));
-    let shaded = SurfaceSample(littered * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
+    let littered = LITTERED * trees_drawn * ramp(density, 0.1, 0.6);
+    let floor_of_wood = SurfaceSample(LITTER, open.bump, vec4<f32>(1.0, 0.0, 0.0, 0.0));
+    var shaded = mixed(open, floor_of_wood, littered);
+    shaded.albedo *= mix(1.0, canopy.open, 1.0 - trees_drawn);
     let kind = mix(LEAVES, NEEDLES, ramp(conifers - canopy.chance, -0.08, 0.08));
     let crown = kind * mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
     let wood = SurfaceSample(crown, no_steeper(canopy.slope, STEEPEST_CROWN), vec4<f32>(1.0, 0.0, 0.0, 0.0));

@@ -20,11 +20,12 @@ fn crags_at(point: vec3<f32>, rise: vec2<f32>, cell: f32, footprint: f32) -> Cra
     var wavelength = CRAG_CELLS * cell;
     var place = point;
     var turn = vec2<f32>(1.0, 0.0);
-    for (var octave = 0u; octave < CRAG_OCTAVES; octave++) {
-        let seen = strength * grain_visible(footprint, wavelength);
-        if seen <= 0.0 {
-            break;
-        }
+    var seen = grain_visible(footprint, wavelength);
+    if seen <= 0.0 {
+        return sum;
+    }
+    var octave = 0u;
+    loop {
         let here = solid_grain(place / wavelength, CRAG_SEED + octave * 0x9e3779b9u);
         let sharp = sqrt(here.value * here.value + CRAG_SHARP);
         let slope = -seen * here.value * cell / (sharp * wavelength) * here.slope;
@@ -34,6 +35,11 @@ fn crags_at(point: vec3<f32>, rise: vec2<f32>, cell: f32, footprint: f32) -> Cra
         turn = vec2<f32>(0.8 * turn.x - 0.6 * turn.y, 0.8 * turn.y + 0.6 * turn.x);
         strength *= CRAG_GAIN;
         wavelength *= 0.5;
+        seen = strength * grain_visible(footprint, wavelength);
+        octave++;
+        if octave >= CRAG_OCTAVES || seen <= 0.0 {
+            break;
+        }
     }
     return sum;
 }

@@ -50,7 +50,7 @@ fn highest(footprint: f32) -> f32 {
 }
 
 /// Height of the crowns at a point in metres.
-fn crown_height(point: [f32; 2], density: f32, footprint: f32) -> f32 {
+pub(super) fn crown_height(point: [f32; 2], density: f32, footprint: f32) -> f32 {
     let (mut sum, mut place) = (0.0, point);
     for (layer, spacing, share) in reliefs(footprint) {
         if layer > 0 {

@@ -39,7 +39,8 @@ fn crown_height(point: vec2<f32>, density: f32, footprint: f32) -> f32 {
     var spacing = WOOD_SPACING;
     var finer = 0.0;
     var stands = vec2<f32>(density, MIDDLE_AGE);
-    for (var layer = 0u; layer < WOOD_LAYERS; layer++) {
+    var layer = 0u;
+    loop {
         let seen = max(seen_of_layer(layer, spacing, footprint), finer);
         if seen > finer {
             let height = dome(place / spacing, WOOD_SEED + layer, stands.x, stands.y).height;
@@ -49,6 +50,10 @@ fn crown_height(point: vec2<f32>, density: f32, footprint: f32) -> f32 {
         spacing *= WOOD_COARSER;
         place = turned_lattice(place);
         stands = GROUPS;
+        layer++;
+        if layer >= WOOD_LAYERS {
+            break;
+        }
     }
     return sum;
 }
@@ -59,16 +64,18 @@ fn seen_crown(point: vec2<f32>, density: f32, footprint: f32, aslant: vec2<f32>)
     let top = highest_crown(footprint);
     var found = 0.0;
     var above = vec2<f32>(top, 0.0);
-    // Where there is no wood nothing is looked for.
-    let steps = select(0u, WOOD_STEPS + 1u, density > 0.0);
-    for (var step = 0u; step < steps; step++) {
+    var step = 0u;
+    loop {
         let up = top * (1.0 - f32(step) / f32(WOOD_STEPS));
         let left = up - crown_height(point + up * aslant, density, footprint);
-        if step > 0u && left <= 0.0 {
-            found = above.x + above.y / max(above.y - left, 1e-6) * (up - above.x);
+        let is_met = step > 0u && left <= 0.0;
+        found = select(found, above.x + above.y / max(above.y - left, 1e-6) * (up - above.x), is_met);
+        above = vec2<f32>(up, left);
+        step++;
+        // Where there is no wood nothing is looked for.
+        if is_met || step > WOOD_STEPS || density <= 0.0 {
             break;
         }
-        above = vec2<f32>(up, left);
     }
     return point + found * aslant;
 }

@@ -74,10 +74,11 @@ fn fractures_at(face: Face) -> Fractures {
     var height = BLOCKS_LARGEST * face.thickness;
     let pixel = BLOCK_PIXELS * face.footprint;
     var seen = grain_visible(pixel, height);
-    for (var layer = 0u; layer < BLOCK_LAYERS; layer++) {
-        if seen <= 0.0 {
-            break;
-        }
+    if seen <= 0.0 {
+        return sum;
+    }
+    var layer = 0u;
+    loop {
         let smaller = BLOCKS_SMALLER * height;
         let next = select(0.0, grain_visible(pixel, smaller), layer + 1u < BLOCK_LAYERS);
         let here = blocks_at(face, height, 0x2bu + layer);
@@ -88,6 +89,10 @@ fn fractures_at(face: Face) -> Fractures {
         sum.ledge = max(sum.ledge, weight * here.ledge);
         height = smaller;
         seen = next;
+        layer++;
+        if layer >= BLOCK_LAYERS || seen <= 0.0 {
+            break;
+        }
     }
     return sum;
 }

@@ -17,7 +17,8 @@ fn solid_grain(place: vec3<f32>, seed: u32) -> SolidGrain {
     let ease = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let ease_slope = 30.0 * t * t * (t * (t - 2.0) + 1.0);
     var sum = SolidGrain(0.0, vec3<f32>(0.0));
-    for (var at = 0; at < 8; at++) {
+    var at = 0;
+    loop {
         let side = vec3<i32>(at & 1, (at >> 1u) & 1, at >> 2u);
         let gradient = solid_gradient(vec3<i32>(corner) + side, seed);
         let far = vec3<f32>(side);
@@ -27,6 +28,10 @@ fn solid_grain(place: vec3<f32>, seed: u32) -> SolidGrain {
         let weight = near.x * near.y * near.z;
         sum.value += weight * plane;
         sum.slope += weight * gradient + nearer * near.yzx * near.zxy * plane;
+        at++;
+        if at >= 8 {
+            break;
+        }
     }
     return sum;
 }

@@ -16,7 +16,6 @@
 
 use super::border::{DIRECTIONS, Heights, border, far};
 use super::surface::Surface;
-use crate::colour::mix;
 use weald_core::grain::Octaves;
 
 /// Over how much of the landscape's longer side the ground leaves what the border was like.
@@ -277,12 +276,12 @@ impl Surroundings {
         }
     }
 
-    /// Radiance of what lies at a place beyond the border, as it is lost before what lies farthest.
-    pub(super) fn lost(&self, place: [f32; 2], radiance: [f32; 3], farthest: [f32; 3]) -> [f32; 3] {
+    /// The share in which what lies at a place beyond the border fades into what lies farthest.
+    pub(super) fn lost_share(&self, place: [f32; 2]) -> f32 {
         let away = |axis: usize| place[axis] - place[axis].clamp(0.5, self.cells[axis] + 0.5);
         let reach = LOST * self.cells[0].max(self.cells[1]);
         let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
-        mix(radiance, farthest, 1.0 - libm::expf(-square))
+        1.0 - libm::expf(-square)
     }
 }
 

@@ -131,8 +131,7 @@ fn level_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
     let dry = beyond.surface.x - scene.scale.w;
     let far = select(dry, scene.around.y, scene.around.y > -1e29);
     var near = far;
-    // A loop of one turn or none: software would look up both levels in a condition.
-    for (var turn = 0u; turn < select(0u, 1u, beyond.share < 1.0); turn++) {
+    if beyond.share < 1.0 {
         let within = spline_at(level, mirrored_within(place).place);
         let off = abs(within - spline_at(level, nearest_within(place)));
         // Without a sea, `scene.around.y` lies far below all ground.
@@ -154,8 +153,8 @@ fn is_at_sea(height: f32) -> bool {
     return abs(height - scene.around.y) < AT_SEA;
 }
 
-// Radiance of what lies at a place beyond the border, as it is lost before what lies farthest.
-fn lost_beyond(place: vec2<f32>, radiance: vec3<f32>, farthest: vec3<f32>) -> vec3<f32> {
+// The share in which what lies at a place beyond the border fades into what lies farthest.
+fn lost_share(place: vec2<f32>) -> f32 {
     let away = (place - nearest_within(place)) / (scene.around.x * max(scene.grid.x, scene.grid.y));
-    return mix(radiance, farthest, 1.0 - exp(-dot(away, away)));
+    return 1.0 - exp(-dot(away, away));
 }

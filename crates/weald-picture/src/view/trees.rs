@@ -30,7 +30,7 @@ impl LitScene {
             return None;
         }
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(place)));
-        let spot = self.spot(place);
+        let spot = self.wooded_ground(place);
         let lifted = terrain.top.at(place) - self.setting.bed.at(place);
         let [density, conifers] = self.cover.wood(&spot);
         let stands = river < IN_RIVER && lifted < LIFTED && tree.rank < density;
@@ -38,7 +38,7 @@ impl LitScene {
     }
 
     /// The ground under a tree.
-    fn spot(&self, place: [f32; 2]) -> SurfacePoint {
+    fn wooded_ground(&self, place: [f32; 2]) -> SurfacePoint {
         let (terrain, stretch) = (&self.setting.terrain, self.setting.exaggeration);
         let [height, east, south] = self.setting.bed.with_slope(place);
         let normal = terrain.normal([east, south]);

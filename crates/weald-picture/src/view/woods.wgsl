@@ -93,18 +93,21 @@ fn wood_centre(square: vec2<i32>, hash: u32) -> vec2<f32> {
 fn dome(place: vec2<f32>, seed: u32, density: f32, age: f32) -> Dome {
     let corner = vec2<i32>(floor(place - 0.5));
     var top = Dome(0.0, vec2<f32>(0.0), 0.0);
-    for (var look = 0; look < 4; look++) {
+    var look = 0;
+    loop {
         let square = corner + vec2<i32>(look & 1, look >> 1u);
         let chances = wood_chances(square, seed);
-        if part_of(chances.y, 0u) >= min(density, WOOD_FULL) {
-            continue;
-        }
+        let stands = part_of(chances.y, 0u) < min(density, WOOD_FULL);
         let away = place - wood_centre(square, chances.x);
         let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * min(age * part_of(chances.y, 8u), 1.0);
         let below = 1.0 - dot(away, away) / (radius * radius);
         let tall = tallness(chances.y);
-        if below * tall > top.height {
+        if stands && below * tall > top.height {
             top = Dome(below * tall, -2.0 * tall / (radius * radius) * away, part_of(chances.y, 24u));
+        }
+        look++;
+        if look >= 4 {
+            break;
         }
     }
     return top;
@@ -125,8 +128,7 @@ fn seen_of_layer(layer: u32, spacing: f32, footprint: f32) -> f32 {
 
 // What a wood of a density looks like at a point, for a pixel of that footprint.
 fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32, sun: vec3<f32>) -> Canopy {
-    // Where there is none, no loop is gone through.
-    let layers = select(1u, WOOD_LAYERS, wooded > 0.0);
+    let is_wooded = wooded > 0.0;
     let single = seen_of_layer(0u, WOOD_SPACING, footprint);
     var lumps = 0.0;
     var slope = vec2<f32>(0.0);
@@ -136,21 +138,25 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32, sun: vec3<f32>) -> C
     var turn = vec2<f32>(1.0, 0.0);
     let stand = stand_at(point, footprint, wooded);
     var chance = 0.5 + STANDS_KIND * stand;
-    for (var layer = 1u; layer < layers; layer++) {
+    var layer = 1u;
+    loop {
         spacing *= WOOD_COARSER;
         place = turned_lattice(place);
         turn = turned_lattice(turn);
-        let seen = seen_of_layer(layer, spacing, footprint);
-        if seen <= 0.0 {
-            continue;
+        let seen = select(0.0, seen_of_layer(layer, spacing, footprint), is_wooded);
+        if seen > 0.0 {
+            let group = dome(place / spacing, WOOD_SEED + layer, GROUPS.x, GROUPS.y);
+            let weight = seen * (1.0 - 0.55 * finer);
+            finer = seen;
+            lumps += weight * (0.7 * (group.height - 0.45) + WOOD_UNLIKE * (group.chance - 0.5));
+            chance += weight * 0.7 * (group.chance - 0.5);
+            let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
+            slope += weight * CROWN_STEEP.y * along;
         }
-        let group = dome(place / spacing, WOOD_SEED + layer, GROUPS.x, GROUPS.y);
-        let weight = seen * (1.0 - 0.55 * finer);
-        finer = seen;
-        lumps += weight * (0.7 * (group.height - 0.45) + WOOD_UNLIKE * (group.chance - 0.5));
-        chance += weight * 0.7 * (group.chance - 0.5);
-        let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
-        slope += weight * CROWN_STEEP.y * along;
+        layer++;
+        if layer >= WOOD_LAYERS || !is_wooded {
+            break;
+        }
     }
     lumps += STANDS_TONE * stand;
     let density = clamp(wooded + 2.4 * lumps * wooded * (1.0 - wooded), 0.0, 1.0);
@@ -158,8 +164,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32, sun: vec3<f32>) -> C
     let covered = 0.75 * density * (2.0 - density) * 0.9;
     let far = Canopy(covered + (1.0 - covered) * between, 0.42 + 0.55 * lumps, slope, 1.0 - 0.4 * density, chance);
     var near = far;
-    let looks = select(0u, 1u, single > 0.0 && density > 0.0);
-    for (var look = 0u; look < looks; look++) {
+    if single > 0.0 && density > 0.0 {
         near = crowns(point, vec2<f32>(density, between), stand, footprint, sun);
         near.tone += 0.45 * lumps;
         near.slope += slope;

@@ -4,31 +4,24 @@ use weald::error::{Limit, Quantity};
 use weald::grow::Vegetation;
 use weald::grow::ifs::Ifs;
 use weald::grow::ifs::foliage::{Colours, Habit};
-use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
+use weald::grow::ifs::limbs::Limbs;
 use weald::picture::{LitScene, linear_of_srgb};
 use weald::plants::{Plant, Plants};
 use weald::random::{hash2, unit};
 use weald::{Error, Landscape};
 use wgpu::{BindGroup, BufferUsages};
 
-use super::lists::{LISTS, SEATS, SHARED_SEATS, VIEWS};
+use super::lists::{LISTS, VIEWS};
+use super::mesh::{CarriedLimbs, DRAW, Mesh, filled};
 use super::pipelines::Groups;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::pace::Pace;
-use crate::transfer::{self, Transfer};
-
-/// Bytes of an indexed indirect draw.
-pub(super) const DRAW: u64 = 20;
+use crate::render::records::{Records, WORDS};
+use crate::transfer::Transfer;
 
 /// Plants of a workgroup, as `choose.wgsl` has it.
 const GROUP: u32 = 256;
-
-/// Words of a plant, as `plants.wgsl` has them.
-const WORDS: usize = 8;
-
-/// Words of how a limb is carried, as `carried.wgsl` has it.
-const CARRIED: u64 = 8;
 
 /// Distance in metres by which roots reach into the ground, beside the height of the plant, as `stand.wgsl` has it.
 const ROOTED: f32 = 0.01;
@@ -40,23 +33,35 @@ pub(super) struct Batch {
     pub(super) carry: BindGroup,
     pub(super) draw: BindGroup,
     pub(super) stand: BindGroup,
-    pub(super) indices: Store,
-    pub(super) draws: Store,
+    pub(super) mesh: Mesh,
     /// Workgroups that look at all plants.
     pub(super) groups: u32,
+    /// Whether leaves are divided into leaflets where they are seen from close by.
+    pub(super) is_divided: bool,
+    /// Where lists start.
+    pub(super) starts: Store,
     kept: Store,
-    starts: Store,
     plants: Store,
-    _stores: [Store; 6],
+    _limbs: CarriedLimbs,
+    _seen: Records,
+    _stores: [Store; 2],
 }
 
 /// What the plants of one kind have in common.
 pub(super) struct Kind<'a> {
-    pub(super) ifs: &'a Ifs,
+    pub(super) limbs: &'a Limbs,
     pub(super) colours: Colours,
+    /// Leaflets or needles on a side of a leaf from close by, and the share of its edge that they take; none where leaves are
+    /// whole.
+    pub(super) leaflets: [f32; 2],
     /// How far trees of a wood are drawn, whether they are conifers, and how many squares of it are known along a side;
     /// nothing for other plants.
     pub(super) wood: [f32; 3],
+}
+
+/// The limbs of a plant in the habit that its fractal has by itself.
+pub(super) fn limbs_of(ifs: &Ifs) -> Limbs {
+    Limbs::of(ifs, Habit::of(ifs, None))
 }
 
 impl Batch {
@@ -69,7 +74,12 @@ impl Batch {
         let fractal = landscape.fractal(&plants.kind)?;
         let stood: Vec<_> =
             (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(scene, n, plant)).collect();
-        let kind = Kind { ifs: &fractal.ifs, colours: colours(&plants.kind), wood: [0.0; 3] };
+        let kind = Kind {
+            limbs: &limbs_of(&fractal.ifs),
+            colours: colours(&plants.kind),
+            leaflets: leaflets(&plants.kind),
+            wood: [0.0; 3],
+        };
         Self::of(gpu, &kind, &stood, groups)
     }
 
@@ -79,53 +89,43 @@ impl Batch {
     }
 
     fn of(gpu: &Gpu, of: &Kind<'_>, stood: &[[u32; WORDS]], groups: &Groups) -> Result<Self, Error> {
-        let limbs = Limbs::of(of.ifs, Habit::of(of.ifs, None));
         let count = stood.len().max(1) as u64;
         ensure_bound(gpu, count)?;
         let workgroups = count.div_ceil(u64::from(GROUP));
-        let filled = |what: &str, words: &[u32], usage| filled(gpu, what, words, usage);
-        let room = |what: &str, words: u64| {
-            Store::new(gpu, what, 4 * words, BufferUsages::STORAGE | BufferUsages::COPY_SRC)
+        let room = |what: &str, words: u64, usage| {
+            Store::new(gpu, what, 4 * words, BufferUsages::STORAGE | BufferUsages::COPY_SRC | usage)
         };
-        let table = BufferUsages::STORAGE;
-        let kind = filled("a kind of plants", &kind(&limbs, of), BufferUsages::UNIFORM)?;
-        let plants = filled("plants", stood.as_flattened(), table)?;
-        let kept = room("plants in sight", count * VIEWS as u64)?;
-        let starts = room("lists of plants", (VIEWS * (LISTS + 1)) as u64)?;
-        let counts = room("counts of plants", workgroups * (VIEWS * LISTS) as u64)?;
-        let (indices, templates) = lists(&limbs);
-        let draws = filled("draws of plants", &templates, table | BufferUsages::INDIRECT)?;
-        let indices = filled("corners of leaves", &indices, BufferUsages::INDEX)?;
-        let corners: Vec<_> = limbs.corners.iter().map(Corner::packed).collect();
-        let layers = filled("layers of limbs", &layers(&limbs.limbs), table)?;
-        let carried = u64::from(SEATS.iter().sum::<u32>() + SHARED_SEATS) * limbs.limbs.len().max(1) as u64;
-        let carried = room("limbs as they are carried", CARRIED * carried)?;
-        let limbs: Vec<_> = limbs.limbs.iter().map(Limb::packed).collect();
-        let limbs = filled("limbs of plants", limbs.as_flattened(), table)?;
-        let corners = filled("leaves of plants", corners.as_flattened(), table)?;
-        let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
-        let carry = groups.carry(gpu, &[&kind, &plants, &kept, &starts, &limbs, &layers, &carried])?;
-        let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners, &carried])?;
-        let stand = groups.stand(gpu, &[&kind, &plants])?;
-        let stores = [kind, counts, limbs, corners, layers, carried];
+        let none = BufferUsages::empty();
+        let kind = filled(gpu, "a kind of plants", &kind(of, count), BufferUsages::UNIFORM)?;
+        let plants = filled(gpu, "plants", stood.as_flattened(), BufferUsages::STORAGE)?;
+        let kept = room("plants in sight", count * VIEWS as u64, none)?;
+        let starts = room("lists of plants", (VIEWS * (LISTS + 1)) as u64, BufferUsages::VERTEX)?;
+        let counts = room("counts of plants", workgroups * (VIEWS * LISTS) as u64, none)?;
+        let seen = Records::new(gpu, "plants as they are seen", VIEWS as u64 * count)?;
+        let (mesh, limbs) = (Mesh::new(gpu, of.limbs)?, CarriedLimbs::new(gpu, &of.limbs.limbs)?);
+        let to_choose = [&kind, &plants, &kept, &starts, &mesh.draws, &counts];
+        let to_carry = [&kind, &plants, &kept, &starts, &limbs.layers, &limbs.carried];
         Ok(Self {
-            choose,
-            carry,
-            draw,
-            stand,
-            indices,
-            draws,
+            choose: groups.choose(gpu, &to_choose, &seen)?,
+            carry: groups.carry(gpu, &to_carry, &limbs.textures())?,
+            draw: groups.draw(gpu, &kind, &[limbs.for_leaves(), seen.resource()])?,
+            stand: groups.stand(gpu, &[&kind, &plants])?,
+            mesh,
             groups: workgroups as u32,
+            is_divided: of.leaflets[0] > 0.0,
             kept,
             starts,
             plants,
-            _stores: stores,
+            _limbs: limbs,
+            _seen: seen,
+            _stores: [kind, counts],
         })
     }
 
     /// The list and number of each plant that was chosen for the camera.
     pub(super) fn chosen(&self, gpu: &Gpu) -> Result<Vec<[u32; 2]>, Error> {
-        let [draws, starts, kept] = [&self.draws, &self.starts, &self.kept].map(|store| words(gpu, store));
+        let [draws, starts, kept] =
+            [&self.mesh.draws, &self.starts, &self.kept].map(|store| words(gpu, store));
         let (draws, starts, kept) = (draws?, starts?, kept?);
         let of_list = |list: usize| {
             let (first, count) = (starts[list] as usize, draws[DRAW as usize / 4 * list + 1] as usize);
@@ -156,15 +156,6 @@ fn ensure_bound(gpu: &Gpu, count: u64) -> Result<(), Error> {
     Err(limit.of(subject).remedy("choose a smaller `count` or a wider `spacing` in `scatter`").into())
 }
 
-/// A buffer that holds these words.
-fn filled(gpu: &Gpu, what: &str, words: &[u32], usage: BufferUsages) -> Result<Store, Error> {
-    let bytes: &[u8] = bytemuck::cast_slice(words);
-    let store =
-        Store::new(gpu, what, bytes.len() as u64, usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)?;
-    transfer::write(gpu, &store.buffer, bytes)?;
-    Ok(store)
-}
-
 /// All words of a buffer, after all that was submitted.
 fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
     let mut pace = Pace::new(gpu.most_moved);
@@ -172,12 +163,18 @@ fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
     Ok(values.into_iter().map(f32::to_bits).collect())
 }
 
-/// Colours in linear light, how far the plant reaches, and what there is to say of a wood.
-fn kind(limbs: &Limbs, of: &Kind<'_>) -> [u32; 12] {
+/// Colours in linear light, how far the plant reaches, what there is to say of a wood, its leaflets, how many limbs it has, and how
+/// many plants there are.
+fn kind(of: &Kind<'_>, plants: u64) -> [u32; 16] {
+    let limbs = of.limbs;
     let [a, b, c] = linear_of_srgb(of.colours.leaf);
     let [d, e, f] = linear_of_srgb(of.colours.stem);
     let [reach, is_conifer, side] = of.wood;
-    [a, b, c, limbs.radius(), d, e, f, 0.0, reach, is_conifer, side, 0.0].map(f32::to_bits)
+    let [count, share] = of.leaflets;
+    let leaf = [a, b, c, limbs.radius()];
+    let leaflets = [count, share, limbs.limbs.len() as f32, plants as f32];
+    let rows = [leaf, [d, e, f, 0.0], [reach, is_conifer, side, 0.0], leaflets];
+    std::array::from_fn(|word| rows[word / 4][word % 4].to_bits())
 }
 
 /// Colours of a kind of plants by its name: trees are darker than herbs.
@@ -190,6 +187,16 @@ pub(super) fn colours(kind: &str) -> Colours {
     Colours { leaf, ..Colours::USUAL }
 }
 
+/// Leaflets on a side of the leaves of a kind of plants by its name, or needles, where each is a spray of them, and the share of
+/// its edge that they take.
+pub(super) fn leaflets(kind: &str) -> [f32; 2] {
+    match kind {
+        "spruce" => [6.0, 0.55],
+        "crown" => [4.0, 0.8],
+        _ => [0.0; 2],
+    }
+}
+
 /// A plant on the ground that is drawn, as the device has it; none where there is no land.
 fn stood(scene: &LitScene, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
     let [east, south, _] = plant.place;
@@ -198,32 +205,6 @@ fn stood(scene: &LitScene, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
     let chance = unit(hash2(0x9e37, number, 3)) as f32;
     let [east, north, up, size] = [east as f32, -south as f32, up, plant.size].map(f32::to_bits);
     Some([east, north, up, size, x | y << 16, z | w << 16, plant.phase.to_bits(), chance.to_bits()])
-}
-
-/// The limbs in layers, those on the ground first, each layer on the one before: how many layers there are, where each
-/// starts, where the last ends, and the limbs in that order.
-fn layers(limbs: &[Limb]) -> Vec<u32> {
-    let mut depths: Vec<usize> = Vec::with_capacity(limbs.len());
-    for limb in limbs {
-        depths.push(limb.parent.map_or(0, |parent| depths[parent as usize] + 1));
-    }
-    let mut order: Vec<u32> = (0..limbs.len() as u32).collect();
-    order.sort_by_key(|&limb| depths[limb as usize]);
-    let count = depths.iter().max().map_or(0, |deepest| deepest + 1);
-    let start = |layer| order.partition_point(|&limb| depths[limb as usize] < layer) as u32;
-    [count as u32].into_iter().chain((0..=count).map(start)).chain(order.iter().copied()).collect()
-}
-
-/// The corners of all lists, and what each draws of them in each view.
-fn lists(limbs: &Limbs) -> (Vec<u32>, Vec<u32>) {
-    let last = LEVELS as u32 - 1;
-    let (mut indices, mut draws) = (Vec::new(), Vec::new());
-    for list in 0..LISTS as u32 {
-        let corners = limbs.triangles_of([list / 2, list.div_ceil(2).min(last)]);
-        draws.extend([corners.len() as u32, 0, indices.len() as u32, 0, 0]);
-        indices.extend(corners);
-    }
-    (indices, draws.repeat(VIEWS))
 }
 
 #[cfg(test)]
@@ -258,33 +239,5 @@ mod tests {
         }
         // The smooth surface that is drawn lies off the straight one that the step measured.
         assert!(apart > 1e-3, "else this would mean little");
-    }
-
-    #[test]
-    fn layers_hold_every_limb_once_and_each_on_the_layer_before() {
-        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
-        let limbs = Limbs::of(&ifs, Habit::of(&ifs, None)).limbs;
-        let words = layers(&limbs);
-        let count = words[0] as usize;
-        let (ends, order) = words[1..].split_at(count + 1);
-        let mut layer_of = vec![usize::MAX; limbs.len()];
-        for layer in 0..count {
-            for &limb in &order[ends[layer] as usize..ends[layer + 1] as usize] {
-                let before = limbs[limb as usize].parent.map(|parent| layer_of[parent as usize]);
-                assert_eq!(before, layer.checked_sub(1), "limb {limb}");
-                layer_of[limb as usize] = layer;
-            }
-        }
-        assert!(count > 2 && order.len() == limbs.len() && !layer_of.contains(&usize::MAX));
-    }
-
-    #[test]
-    fn a_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
-        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
-        let limbs = Limbs::of(&ifs, Habit::of(&ifs, None));
-        let (indices, draws) = lists(&limbs);
-        let bytes = 4 * (indices.len() + 12 * limbs.corners.len() + 8 * limbs.limbs.len());
-        assert!((1 << 20..6 << 20).contains(&bytes), "{bytes}");
-        assert_eq!((4 * WORDS, draws.len()), (32, VIEWS * LISTS * DRAW as usize / 4));
     }
 }

@@ -19,6 +19,24 @@ struct Carried {
     shift: vec3<f32>,
 }
 
+// It is kept in 16 bits a number: of a tree 20 m high, a limb on five others lies at most some millimetres off.
+fn packed_carried(whole: Carried) -> vec4<u32> {
+    let turn = vec2<u32>(pack2x16snorm(whole.turn.xy), pack2x16snorm(whole.turn.zw));
+    return vec4<u32>(turn, pack2x16float(whole.shift.xy), pack2x16float(vec2<f32>(whole.shift.z, 0.0)));
+}
+
+fn unpacked_carried(words: vec4<u32>) -> Carried {
+    let turn = vec4<f32>(unpack2x16snorm(words.x), unpack2x16snorm(words.y));
+    return Carried(turn, vec3<f32>(unpack2x16float(words.z), unpack2x16float(words.w).x));
+}
+
+// Limbs beside each other in a row of the texture from which leaves read how they are carried.
+const CARRIED_ACROSS = 4096u;
+
+fn texel_of_carried(place: u32) -> vec2<u32> {
+    return vec2<u32>(place % CARRIED_ACROSS, place / CARRIED_ACROSS);
+}
+
 // How many plants of a view have a seat, of whose lists the first that has none starts there.
 fn seats_of(view: u32, start: u32) -> u32 {
     return min(SEATS[view], start);
@@ -44,10 +62,14 @@ fn shared_breeze(seat: u32) -> LocalWind {
     return wind_on(strength * vec2<f32>(cos(turn), sin(turn)), frame.moment.x, f32(seat / STRENGTHS) / f32(SIDES));
 }
 
+// The side from which the wind of the shared seats that are nearest comes.
+fn side_of(breeze: LocalWind) -> u32 {
+    return u32(round((atan2(breeze.wind.z, breeze.wind.x) / 6.2831853 + 1.0) * f32(SIDES))) % SIDES;
+}
+
 // The first of the two shared seats whose winds are nearest, and the share of the second.
-fn shared_seat(breeze: LocalWind) -> vec2<f32> {
-    let side = u32(round((atan2(breeze.wind.z, breeze.wind.x) / 6.2831853 + 1.0) * f32(SIDES))) % SIDES;
-    let strength = clamp(breeze.push / STRONGER, 0.0, f32(STRENGTHS) - 1.001);
+fn shared_seat(side: u32, push: f32) -> vec2<f32> {
+    let strength = clamp(push / STRONGER, 0.0, f32(STRENGTHS) - 1.001);
     return vec2<f32>(f32(SHARED_SEATS + side * STRENGTHS) + floor(strength), fract(strength));
 }
 

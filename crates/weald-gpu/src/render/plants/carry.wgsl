@@ -4,10 +4,12 @@
 @group(2) @binding(1) var<storage, read> plants: array<PlacedPlant>;
 @group(2) @binding(2) var<storage, read> kept: array<u32>;
 @group(2) @binding(3) var<storage, read> starts: array<u32>;
-@group(2) @binding(4) var<storage, read> limbs: array<Limb>;
 // How many layers of limbs there are, where each starts, where the last ends, and all limbs in that order.
-@group(2) @binding(5) var<storage, read> layers: array<u32>;
-@group(2) @binding(6) var<storage, read_write> carried: array<Carried>;
+@group(2) @binding(4) var<storage, read> layers: array<u32>;
+// For limbs on them, and for leaves, which read a texel faster.
+@group(2) @binding(5) var<storage, read_write> carried: array<vec4<u32>>;
+@group(2) @binding(6) var limbs: texture_2d<u32>;
+@group(2) @binding(7) var carried_texels: texture_storage_2d<rgba32uint, write>;
 
 const THREADS = 64u;
 
@@ -19,6 +21,12 @@ fn some_share() -> bool {
         }
     }
     return false;
+}
+
+fn limb_at(number: u32) -> Limb {
+    let record = record_at(limbs, number);
+    let joint = bitcast<vec4<f32>>(record.first);
+    return Limb(joint.xyz, joint.w, bitcast<vec3<f32>>(record.second.xyz), record.second.w);
 }
 
 @compute @workgroup_size(THREADS)
@@ -35,18 +43,21 @@ fn carry_limbs(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
     } else {
         breeze = breeze_of(plants[kept[view * arrayLength(&plants) + group.x]]);
     }
-    let base = (FIRST_SEATS[view] + group.x) * arrayLength(&limbs);
+    let base = (FIRST_SEATS[view] + group.x) * u32(kind.leaflets.z);
     let count = layers[0];
     for (var layer = 0u; layer < count; layer++) {
         for (var at = layers[1u + layer] + thread; at < layers[2u + layer]; at += THREADS) {
             let number = layers[2u + count + at];
-            let limb = limbs[number];
+            let limb = limb_at(number);
             let parent = limb.tie & NO_PARENT;
             var here = Carried(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec3<f32>(0.0));
             if parent != NO_PARENT {
-                here = carried_by(turned_limb(limbs[parent], limb.along, breeze), carried[base + parent]);
+                let below = unpacked_carried(carried[base + parent]);
+                here = carried_by(turned_limb(limb_at(parent), limb.along, breeze), below);
             }
-            carried[base + number] = here;
+            let packed = packed_carried(here);
+            carried[base + number] = packed;
+            textureStore(carried_texels, texel_of_carried(base + number), packed);
         }
         storageBarrier();
     }

@@ -18,6 +18,7 @@ struct Draw {
 @group(2) @binding(4) var<storage, read_write> draws: array<Draw>;
 // Plants of each list in each workgroup of each view, then how many are before them.
 @group(2) @binding(5) var<storage, read_write> counts: array<u32>;
+@group(2) @binding(6) var seen: texture_storage_2d<rgba32uint, write>;
 
 const GROUP = 256u;
 
@@ -131,5 +132,10 @@ fn place_plants(
         rank += select(0u, 1u, lists[before] == list);
     }
     let first = starts[view * LISTS + list] + counts[(view * all.x + group.x) * LISTS + list];
-    kept[view * arrayLength(&plants) + first + rank] = number;
+    let place = view * arrayLength(&plants) + first + rank;
+    kept[place] = number;
+    let record = packed_seen(seen_plant(view, plants[number]));
+    let texel = texel_of_record(place);
+    textureStore(seen, texel, record.first);
+    textureStore(seen, texel + vec2<u32>(1u, 0u), record.second);
 }

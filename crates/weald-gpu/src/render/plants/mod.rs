@@ -6,23 +6,28 @@
 //! broader and the others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb
 //! (`leaves.wgsl`).
 //!
-//! A plant takes 53 bytes of a device: itself, its place in the lists of five views, and its share of what counts them. A
-//! kind of plant takes 4 MB or so, and 32 bytes for each limb of the plants that are seen largest, which are carried once
-//! for all of their leaves (`carry.wgsl`): 80 MB for ferns.
+//! A plant takes 213 bytes of a device: itself, its place in the lists of five views, as it is seen in each of them
+//! (`seen.wgsl`), and its share of what counts them. A kind of plant takes 4 MB or so, and 32 bytes for each limb of the plants that
+//! are seen largest, which are carried once for all of their leaves (`carry.wgsl`), half of them for limbs and half for leaves:
+//! 80 MB for ferns.
 
 mod batch;
 mod lists;
+mod mesh;
 mod pipelines;
 mod wood;
 
+use std::ops::Range;
 use weald::picture::LitScene;
 use weald::{Error, Landscape};
+
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, RenderPass};
 
 use super::layouts::Layouts;
 use crate::gpu::Gpu;
-use batch::{Batch, DRAW};
-use lists::{LISTS, SEATS, VIEWS};
+use batch::Batch;
+use lists::{LISTS, LISTS_OF_FINEST, SEATED_LISTS, SEATS, VIEWS};
+use mesh::DRAW;
 use pipelines::Pipelines;
 use wood::{REACH, Wood};
 
@@ -113,14 +118,22 @@ impl Plants {
 
     /// Draws the light of all plants that the camera sees.
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
-        pass.set_pipeline(&self.pipelines.light);
-        self.draw_view(pass, 0);
+        let [whole, divided] = &self.pipelines.light;
+        for set in self.drawn() {
+            let near = if set.is_divided { divided } else { whole };
+            pass.set_pipeline(near);
+            self.draw_lists(pass, set, (0, 0..LISTS_OF_FINEST));
+            pass.set_pipeline(whole);
+            self.draw_lists(pass, set, (0, LISTS_OF_FINEST..LISTS));
+        }
     }
 
     /// Draws what throws shadows into a cascade, 0 for the first.
     pub(super) fn cast(&self, pass: &mut RenderPass<'_>, cascade: usize) {
         pass.set_pipeline(&self.pipelines.caster);
-        self.draw_view(pass, 1 + cascade);
+        for set in self.drawn() {
+            self.draw_lists(pass, set, (1 + cascade, 0..LISTS));
+        }
     }
 
     /// The list and number of each plant that was chosen for the camera, set by set.
@@ -139,15 +152,17 @@ impl Plants {
         Ok(kinds.map(|kind| kind.roots(gpu)).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    fn draw_view(&self, pass: &mut RenderPass<'_>, view: usize) {
-        for set in self.drawn() {
-            pass.set_bind_group(2, &set.draw, &[]);
-            pass.set_index_buffer(set.indices.buffer.slice(..), IndexFormat::Uint32);
-            for list in 0..LISTS {
-                let number = view * LISTS + list;
-                pass.set_bind_group(3, &self.pipelines.which, &[self.pipelines.numbers.offset(number)]);
-                pass.draw_indexed_indirect(&set.draws.buffer, DRAW * number as u64);
-            }
+    fn draw_lists(&self, pass: &mut RenderPass<'_>, set: &Batch, (view, lists): (usize, Range<usize>)) {
+        pass.set_bind_group(2, &set.draw, &[]);
+        pass.set_vertex_buffer(0, set.mesh.corners.buffer.slice(..));
+        pass.set_index_buffer(set.mesh.indices.buffer.slice(..), IndexFormat::Uint32);
+        let start_of = |list: usize| set.starts.buffer.slice(4 * (view * LISTS + list) as u64..);
+        pass.set_vertex_buffer(2, start_of(SEATED_LISTS));
+        pass.set_bind_group(3, &self.pipelines.which, &[self.pipelines.numbers.offset(view)]);
+        for list in lists {
+            let number = view * LISTS + list;
+            pass.set_vertex_buffer(1, start_of(list));
+            pass.draw_indexed_indirect(&set.mesh.draws.buffer, DRAW * number as u64);
         }
     }
 }

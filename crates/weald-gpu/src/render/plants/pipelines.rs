@@ -5,22 +5,35 @@ use weald::grow::{ifs::limbs, wind};
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingType, BufferBindingType, ColorTargetState, ColorWrites, CompareFunction,
-    ComputePipeline, ComputePipelineDescriptor, FragmentState, MultisampleState, PipelineCompilationOptions,
-    PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModule, ShaderStages, VertexState,
+    BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ColorTargetState, ColorWrites,
+    CompareFunction, ComputePipeline, ComputePipelineDescriptor, FragmentState, MultisampleState,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, ShaderStages, VertexAttribute, VertexBufferLayout, VertexState,
+    VertexStepMode, vertex_attr_array,
 };
 
-use super::lists::{LISTS, VIEWS};
+use super::lists::VIEWS;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::render::cascades::TEXELS;
-use crate::render::layouts::{Layouts, STAGE_GROUP, depth_state};
+use crate::render::layouts::{Layouts, STAGE_GROUP, depth_state, shared};
+use crate::render::records::{READ, Records, WRITTEN};
 use crate::render::targets::LIGHT;
 use crate::slots::Slots;
 
 /// Entry points that sort plants into lists, in their order.
 const CHOOSE: [&str; 3] = ["count_plants", "line_up", "place_plants"];
+
+/// Words of a corner with its limb.
+pub(super) const VERTEX_WORDS: usize = 20;
+
+/// A corner with its limb, as `leaves.wgsl` has it.
+const CORNER: [VertexAttribute; 8] = vertex_attr_array![
+    0 => Float32x4, 1 => Float32x3, 2 => Uint32, 3 => Float32x3, 4 => Uint32, 5 => Float32x4, 6 => Float32x3, 7 => Uint32
+];
+
+/// Where lists start, each a number that all vertices share.
+const STARTS: [[VertexAttribute; 1]; 2] = [vertex_attr_array![8 => Uint32], vertex_attr_array![9 => Uint32]];
 
 /// The layouts of what a set of plants is bound to.
 #[derive(Debug)]
@@ -34,27 +47,40 @@ pub(super) struct Groups {
 impl Groups {
     fn new(gpu: &Gpu) -> Self {
         Self {
-            choose: layout(gpu, ShaderStages::COMPUTE, &[true, false, false, false, false]),
-            carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, true, false]),
-            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 6]),
-            stand: layout(gpu, ShaderStages::COMPUTE, &[false]),
+            choose: layout(gpu, ShaderStages::COMPUTE, &[true, false, false, false, false], &[WRITTEN]),
+            carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, false], &[READ, WRITTEN]),
+            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[], &[READ, READ]),
+            stand: layout(gpu, ShaderStages::COMPUTE, &[false], &[]),
         }
     }
 
-    pub(super) fn choose(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
-        bind(gpu, &self.choose, stores)
+    /// With the texture for plants as they are seen.
+    pub(super) fn choose(&self, gpu: &Gpu, stores: &[&Store], seen: &Records) -> Result<BindGroup, Error> {
+        bind(gpu, &self.choose, stores, &[seen.resource()])
     }
 
-    pub(super) fn carry(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
-        bind(gpu, &self.carry, stores)
+    /// With the texture of limbs, and the one for how they are carried.
+    pub(super) fn carry(
+        &self,
+        gpu: &Gpu,
+        stores: &[&Store],
+        textures: &[BindingResource<'_>; 2],
+    ) -> Result<BindGroup, Error> {
+        bind(gpu, &self.carry, stores, textures)
     }
 
-    pub(super) fn draw(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
-        bind(gpu, &self.draw, stores)
+    /// With the textures of how limbs are carried, and of plants as they are seen.
+    pub(super) fn draw(
+        &self,
+        gpu: &Gpu,
+        kind: &Store,
+        textures: &[BindingResource<'_>; 2],
+    ) -> Result<BindGroup, Error> {
+        bind(gpu, &self.draw, &[kind], textures)
     }
 
     pub(super) fn stand(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
-        bind(gpu, &self.stand, stores)
+        bind(gpu, &self.stand, stores, &[])
     }
 }
 
@@ -66,10 +92,11 @@ pub(super) struct Pipelines {
     pub(super) stand: ComputePipeline,
     /// Of the trees of woods.
     pub(super) grow: ComputePipeline,
-    pub(super) light: RenderPipeline,
+    /// Of whole leaves, and of those that are divided into leaflets.
+    pub(super) light: [RenderPipeline; 2],
     pub(super) caster: RenderPipeline,
     pub(super) groups: Groups,
-    /// Numbers of all views and lists, of which a draw is bound to one.
+    /// Numbers of all views, of which a draw is bound to one.
     pub(super) which: BindGroup,
     pub(super) numbers: Slots,
 }
@@ -95,13 +122,23 @@ impl Pipelines {
         let which = which(gpu, &which_layout, &numbers)?;
         let (choose, carry, stand, grow, light, caster) =
             gpu.context.attempt_to_compile("making the pipelines of plants", || {
-                let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
                 let standing = module(gpu, scene, &[include_str!("stand.wgsl")]);
                 let grown = module_of(gpu, scene.shader(STAGE_GROUP), &[include_str!("wood.wgsl")]);
-                let swaying = [wind::FUNCTIONS, limbs::FUNCTIONS, include_str!("carried.wgsl")];
+                let swaying = [
+                    wind::FUNCTIONS,
+                    limbs::FUNCTIONS,
+                    include_str!("carried.wgsl"),
+                    include_str!("seen.wgsl"),
+                ];
+                let chosen = module(gpu, scene, &[&swaying[..], &[include_str!("choose.wgsl")]].concat());
                 let carried = [&swaying[..], &[include_str!("carry.wgsl")]].concat();
                 let carried = module(gpu, scene, &carried);
-                let leaves = [include_str!("../thin.wgsl"), include_str!("leaves.wgsl")];
+                let leaves = [
+                    include_str!("../thin.wgsl"),
+                    include_str!("bark.wgsl"),
+                    include_str!("leaflets.wgsl"),
+                    include_str!("leaves.wgsl"),
+                ];
                 let leaves = module(gpu, scene, &[&swaying[..], &leaves].concat());
                 let (frame, maps) = (layouts.frame, &layouts.maps.layout);
                 let whole = |groups: &[Option<&BindGroupLayout>]| {
@@ -124,7 +161,8 @@ impl Pipelines {
                     compute(gpu, &carried, &carrying, "carry_limbs"),
                     compute(gpu, &standing, &put, "stand"),
                     compute(gpu, &grown, &put, "grow_wood"),
-                    light(gpu, &drawn(&frame.layout, samples)),
+                    ["leaf_fragment", "divided_fragment"]
+                        .map(|name| light(gpu, &drawn(&frame.layout, samples), name)),
                     caster(gpu, &drawn(&frame.caster_layout, 1)),
                 ))
             })?;
@@ -143,6 +181,7 @@ fn module_of(gpu: &Gpu, of_view: String, own: &[&str]) -> ShaderModule {
     let shared = [
         texels.as_str(),
         include_str!("../frame.wgsl"),
+        include_str!("../records.wgsl"),
         include_str!("../shadows.wgsl"),
         include_str!("plants.wgsl"),
     ];
@@ -151,19 +190,19 @@ fn module_of(gpu: &Gpu, of_view: String, own: &[&str]) -> ShaderModule {
     gpu.context.known.module(&gpu.context.device, "plants", text)
 }
 
-/// The view and the list of every draw.
+/// The view of every draw.
 fn numbers(gpu: &Gpu) -> Result<Slots, Error> {
-    let numbers = Slots::new(gpu, "numbers of lists", 2, VIEWS * LISTS)?;
-    let pairs: Vec<_> = (0..VIEWS * LISTS).map(|n| [(n / LISTS) as u32, (n % LISTS) as u32]).collect();
-    let packed = numbers.packed(pairs.iter().map(<[u32; 2]>::as_slice))?;
+    let numbers = Slots::new(gpu, "numbers of views", 1, VIEWS)?;
+    let views: Vec<_> = (0..VIEWS as u32).map(|view| [view]).collect();
+    let packed = numbers.packed(views.iter().map(<[u32; 1]>::as_slice))?;
     crate::transfer::write(gpu, &numbers.store.buffer, &packed)?;
     Ok(numbers)
 }
 
 fn which(gpu: &Gpu, layout: &BindGroupLayout, numbers: &Slots) -> Result<BindGroup, Error> {
     let entries = [BindGroupEntry { binding: 0, resource: numbers.binding() }];
-    let description = BindGroupDescriptor { label: Some("a list"), layout, entries: &entries };
-    gpu.context.attempt("binding a list", || Ok(gpu.context.device.create_bind_group(&description)))
+    let description = BindGroupDescriptor { label: Some("a view"), layout, entries: &entries };
+    gpu.context.attempt("binding a view", || Ok(gpu.context.device.create_bind_group(&description)))
 }
 
 fn which_layout(gpu: &Gpu) -> BindGroupLayout {
@@ -173,30 +212,37 @@ fn which_layout(gpu: &Gpu) -> BindGroupLayout {
         min_binding_size: None,
     };
     let entry = BindGroupLayoutEntry { binding: 0, visibility: ShaderStages::VERTEX, ty, count: None };
-    let description = BindGroupLayoutDescriptor { label: Some("a list"), entries: &[entry] };
+    let description = BindGroupLayoutDescriptor { label: Some("a view"), entries: &[entry] };
     gpu.context.device.create_bind_group_layout(&description)
 }
 
-/// A uniform, and buffers of which some are only read.
-fn layout(gpu: &Gpu, visibility: ShaderStages, read_only: &[bool]) -> BindGroupLayout {
+/// A uniform, buffers of which some are only read, and textures behind them.
+fn layout(
+    gpu: &Gpu,
+    visibility: ShaderStages,
+    read_only: &[bool],
+    textures: &[BindingType],
+) -> BindGroupLayout {
     let storage = read_only.iter().map(|&read_only| BufferBindingType::Storage { read_only });
-    let kinds = [BufferBindingType::Uniform].into_iter().chain(storage);
-    let entries = (0..).zip(kinds).map(|(binding, ty)| BindGroupLayoutEntry {
-        binding,
-        visibility,
-        ty: BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
-        count: None,
-    });
-    let entries: Vec<_> = entries.collect();
+    let buffers = [BufferBindingType::Uniform].into_iter().chain(storage);
+    let buffers =
+        buffers.map(|ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None });
+    let entries = (0..).zip(buffers.chain(textures.iter().copied()));
+    let entries: Vec<_> =
+        entries.map(|(binding, ty)| BindGroupLayoutEntry { binding, visibility, ty, count: None }).collect();
     let description = BindGroupLayoutDescriptor { label: Some("plants"), entries: &entries };
     gpu.context.device.create_bind_group_layout(&description)
 }
 
-fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGroup, Error> {
-    let entries = (0..).zip(stores);
-    let entries: Vec<_> = entries
-        .map(|(binding, store)| BindGroupEntry { binding, resource: store.buffer.as_entire_binding() })
-        .collect();
+fn bind(
+    gpu: &Gpu,
+    layout: &BindGroupLayout,
+    stores: &[&Store],
+    textures: &[BindingResource<'_>],
+) -> Result<BindGroup, Error> {
+    let buffers = stores.iter().map(|store| store.buffer.as_entire_binding());
+    let entries = (0..).zip(buffers.chain(textures.iter().cloned()));
+    let entries: Vec<_> = entries.map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
     let description = BindGroupDescriptor { label: Some("plants"), layout, entries: &entries };
     gpu.context.attempt("binding plants", || Ok(gpu.context.device.create_bind_group(&description)))
 }
@@ -214,11 +260,11 @@ fn compute(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout, name: &str
     gpu.context.known.computing((module.clone(), name.to_owned()), make)
 }
 
-fn light(gpu: &Gpu, drawn: &Drawn<'_>) -> RenderPipeline {
+fn light(gpu: &Gpu, drawn: &Drawn<'_>, entry_point: &str) -> RenderPipeline {
     let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
     let fragment = FragmentState {
         module: drawn.module,
-        entry_point: Some("leaf_fragment"),
+        entry_point: Some(entry_point),
         compilation_options: PipelineCompilationOptions::default(),
         targets: &[Some(target)],
     };
@@ -235,6 +281,8 @@ fn pipeline(
     (vertex, compare): (&str, CompareFunction),
     fragment: Option<FragmentState<'_>>,
 ) -> RenderPipeline {
+    let seen = fragment.as_ref().and_then(|fragment| fragment.entry_point).unwrap_or_default();
+    let key = format!("{vertex} {seen} {}", drawn.samples);
     let make = || {
         gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
             label: Some(vertex),
@@ -243,7 +291,15 @@ fn pipeline(
                 module: drawn.module,
                 entry_point: Some(vertex),
                 compilation_options: PipelineCompilationOptions::default(),
-                buffers: &[],
+                buffers: &[
+                    Some(VertexBufferLayout {
+                        array_stride: 4 * VERTEX_WORDS as u64,
+                        step_mode: VertexStepMode::Vertex,
+                        attributes: &CORNER,
+                    }),
+                    Some(shared(&STARTS[0])),
+                    Some(shared(&STARTS[1])),
+                ],
             },
             primitive: PrimitiveState::default(),
             depth_stencil: Some(depth_state(true, compare)),
@@ -253,5 +309,5 @@ fn pipeline(
             cache: None,
         })
     };
-    gpu.context.known.drawing((drawn.module.clone(), format!("{vertex} {}", drawn.samples)), make)
+    gpu.context.known.drawing((drawn.module.clone(), key), make)
 }

@@ -28,6 +28,8 @@ struct Kind {
     // Of a wood: how far its trees are drawn, 0 for other plants; whether it is of conifers; squares of its lattice along a
     // side of what is known of it.
     wood: vec4<f32>,
+    // Leaflets on a side of a leaf from close by, and the share of its edge that they take; limbs; plants.
+    leaflets: vec4<f32>,
 }
 
 struct PlacedPlant {

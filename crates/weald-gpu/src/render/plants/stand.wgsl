@@ -11,6 +11,6 @@ fn stand(@builtin(global_invocation_id) at: vec3<u32>) {
     if at.x >= arrayLength(&plants) {
         return;
     }
-    let ground = spline_at(bed, place_of(plants[at.x].place));
-    plants[at.x].place.z = ground - ROOTED * plants[at.x].size;
+    let plant = plants[at.x];
+    plants[at.x].place.z = spline_at(bed, place_of(plant.place)) - ROOTED * plant.size;
 }

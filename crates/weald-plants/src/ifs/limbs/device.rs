@@ -3,8 +3,7 @@
 use super::limb::{Corner, Limb};
 use crate::ifs::shader::Shader;
 
-/// What bends a limb: to be put behind [`wind::FUNCTIONS`](crate::wind::FUNCTIONS), and joined with a binding
-/// `var<storage, read> limbs: array<Limb>`.
+/// What bends a limb: to be put behind [`wind::FUNCTIONS`](crate::wind::FUNCTIONS).
 pub const FUNCTIONS: &str = include_str!("limbs.wgsl");
 
 /// Where points of limbs go, by which the twins are compared: for each of the `rests`, a point and how far along its limb it
@@ -39,14 +38,16 @@ impl Limb {
 
 impl Corner {
     /// The vertex as a device is given it: in the last word its tone and how open it is in eight bits each, its levels in
-    /// three each, and whether it is of a stem.
+    /// three each, whether it is of a stem, how far up its leaf in five, and in two its edge, of which 1 is the axis.
     pub fn packed(&self) -> [u32; 12] {
         let byte = |share: f32| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u32;
         let look = byte(self.tone)
             | byte(self.open) << 8
             | self.levels[0] << 16
             | self.levels[1] << 19
-            | u32::from(self.is_stem) << 22;
+            | u32::from(self.is_stem) << 22
+            | ((31.0 * self.up.clamp(0.0, 1.0) + 0.5) as u32) << 23
+            | ((self.side + 1) as u32) << 28;
         let [a, b, c] = self.rest.map(f32::to_bits);
         let [d, e, f] = self.axis.map(f32::to_bits);
         let [g, h, i] = self.normal.map(f32::to_bits);

@@ -79,6 +79,8 @@ impl Hull {
             limb: 0,
             levels: [self.level; 2],
             is_stem: false,
+            up: 0.0,
+            side: 0,
             tone: (DARK * unit_of(hash2(number, i64::from(self.level), 12))) as f32,
             open: 1.0,
         });

@@ -39,6 +39,10 @@ pub struct Corner {
     pub levels: [u32; 2],
     /// Whether it is of a stem.
     pub is_stem: bool,
+    /// How far up its leaf or stem, from the foot at 0 to the tip at 1.
+    pub up: f32,
+    /// Which edge of its leaf it is on: -1 to the left, 1 to the right, 0 on the axis.
+    pub side: i8,
     /// A number of its leaf's own, 0 to 1.
     pub tone: f32,
     /// How open to the light its place in the plant is, 0 to 1.

@@ -1,5 +1,5 @@
-// Twin of `sway.rs`: limbs that turn about their joints, from the finest to the coarsest. It comes after `wind.wgsl` and a
-// binding `var<storage, read> limbs: array<Limb>`.
+// Twin of `sway.rs`: limbs that turn about their joints, from the finest to the coarsest. It comes after
+// `wind.wgsl`.
 
 const AT_JOINT: f32 = 0.7;
 const MAX_PUSH: f32 = 0.9;
@@ -53,22 +53,4 @@ fn half_turn(limb: Limb, along: f32, breeze: LocalWind) -> vec3<f32> {
 fn rotated(turn: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     let once = 2.0 * cross(turn.xyz, v);
     return v + turn.w * once + cross(turn.xyz, once);
-}
-
-// Where a point goes that is so far along a limb and whose rest is `rest`.
-fn bent(breeze: LocalWind, first: u32, first_along: f32, rest: vec3<f32>, normal: vec3<f32>) -> Bent {
-    var found = Bent(rest, normal);
-    var along = first_along;
-    var number = first;
-    while number != NO_PARENT {
-        let limb = limbs[number];
-        let half = half_turn(limb, along, breeze);
-        let turn = vec4<f32>(half, 1.0) / sqrt(1.0 + dot(half, half));
-        let arm = found.point - limb.joint;
-        found.point += rotated(turn, arm) - arm;
-        found.normal = rotated(turn, found.normal);
-        along = limb.along;
-        number = limb.tie & NO_PARENT;
-    }
-    return found;
 }

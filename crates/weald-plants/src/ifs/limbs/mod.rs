@@ -13,6 +13,7 @@ mod leaf;
 mod limb;
 mod outline;
 mod place;
+mod stem;
 mod sway;
 #[cfg(test)]
 mod tests;

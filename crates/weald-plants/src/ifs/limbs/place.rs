@@ -5,7 +5,7 @@ use super::leaf::{Row, bent, difference, length, lowered, unit};
 use super::limb::{Corner, LEVELS, Limb, Limbs};
 use super::outline::Outline;
 use super::walk::{Branch, Part, Walk};
-use crate::ifs::foliage::{Frond, Habit, Shape, across};
+use crate::ifs::foliage::{Frond, Habit, Shape};
 use crate::ifs::map::{Map, Point, cross, dot};
 use crate::ifs::system::Ifs;
 use weald_core::random::{hash2, unit as unit_of};
@@ -42,25 +42,25 @@ const FEW: usize = 12;
 /// What a plant is made of.
 pub(super) struct Builder {
     habit: Habit,
-    shape: Shape,
+    pub(super) shape: Shape,
     outline: Outline,
     walk: Walk,
     fronds: Vec<Frond>,
     /// Share of a frond below its first leaves.
-    stipe: f64,
+    pub(super) stipe: f64,
     /// Breadth of a leaf beside that of the outline of the whole.
     narrowed: f64,
 }
 
 /// A leaf to be put in space.
 #[derive(Clone, Copy)]
-struct Leaf<'a> {
-    part: &'a Part,
-    frond: &'a Frond,
+pub(super) struct Leaf<'a> {
+    pub(super) part: &'a Part,
+    pub(super) frond: &'a Frond,
     /// Number of the frond's first limb.
-    first_limb: u32,
-    view: usize,
-    rows: usize,
+    pub(super) first_limb: u32,
+    pub(super) view: usize,
+    pub(super) rows: usize,
 }
 
 impl Builder {
@@ -105,7 +105,7 @@ impl Builder {
     }
 
     /// Whether coarse levels are hulls: of a crown that is a body and not a few planes.
-    fn is_crown(&self) -> bool {
+    pub(super) fn is_crown(&self) -> bool {
         is_crown(self.habit, &self.outline)
     }
 
@@ -120,7 +120,7 @@ impl Builder {
     }
 
     /// The levels of a part, of which those of hulls have no leaves.
-    fn levels_of(&self, part: &Part) -> [u32; 2] {
+    pub(super) fn levels_of(&self, part: &Part) -> [u32; 2] {
         let [first, last] = part.levels;
         [first, if self.is_crown() { last.min(HULLS[0].level - 1) } else { last }]
     }
@@ -129,7 +129,7 @@ impl Builder {
         self.on_frond(frond, self.shape.flat(map.at(self.shape.point(flat))))
     }
 
-    fn on_frond(&self, frond: &Frond, flat: Point) -> (Point, Point) {
+    pub(super) fn on_frond(&self, frond: &Frond, flat: Point) -> (Point, Point) {
         self.habit.placed(frond, self.lifted(flat))
     }
 
@@ -213,7 +213,8 @@ impl Builder {
             }
             for side in 0..2 {
                 let (rest, normal) = bent(row, side, length, chance);
-                plant.corners.push(self.corner(leaf, row, [rest, axis, normal]));
+                let corner = self.corner(leaf, row, [rest, axis, normal]);
+                plant.corners.push(Corner { side: [-1, 1][side], ..corner });
             }
         }
         plant.triangles.extend(leaf_triangles(first, leaf.rows as u32));
@@ -258,7 +259,7 @@ impl Builder {
         }
     }
 
-    fn corner(&self, leaf: &Leaf<'_>, row: &Row, [rest, axis, normal]: [Point; 3]) -> Corner {
+    pub(super) fn corner(&self, leaf: &Leaf<'_>, row: &Row, [rest, axis, normal]: [Point; 3]) -> Corner {
         let within = leaf.part.within.at(self.shape.point([0.0, row.along, 0.0]));
         Corner {
             rest: rest.map(|x| x as f32),
@@ -268,47 +269,11 @@ impl Builder {
             limb: leaf.first_limb + leaf.part.branch as u32,
             levels: self.levels_of(leaf.part),
             is_stem: leaf.part.is_stem,
+            up: row.along as f32,
+            side: 0,
             tone: unit_of(hash2(leaf.part.key, leaf.frond.number, 12)) as f32,
             open: 1.0,
         }
-    }
-
-    /// A ribbon from the foot of a part's stem to its top.
-    fn stem(&self, plant: &mut Limbs, leaf: &Leaf<'_>) {
-        let Some(ends) = self.shape.stem else { return };
-        let flats = ends.map(|end| self.shape.flat(leaf.part.map.at(end)));
-        let alongs = ends.map(|end| self.shape.flat(end)[1]);
-        let half = self.shape.stem_half_width * leaf.part.size;
-        self.ribbon(plant, leaf, (flats, alongs, [half, half * self.shape.taper]));
-        if leaf.part.branch == 0 && leaf.part.key == 0 && self.stipe > 0.0 {
-            let foot = -self.stipe / (1.0 - self.stipe);
-            let flats = [[0.0, foot, 0.0], flats[0]];
-            self.ribbon(
-                plant,
-                leaf,
-                (flats, [foot, alongs[0]], [half / (self.shape.taper * self.shape.taper), half]),
-            );
-        }
-    }
-
-    fn ribbon(
-        &self,
-        plant: &mut Limbs,
-        leaf: &Leaf<'_>,
-        (flats, alongs, halves): ([Point; 2], [f64; 2], [f64; 2]),
-    ) {
-        let across = across(flats[0], flats[1], leaf.view);
-        let first = plant.corners.len() as u32;
-        for end in 0..2 {
-            let (axis, normal) = self.on_frond(leaf.frond, flats[end]);
-            let row = Row { axis, sides: [axis; 2], normal, along: alongs[end] };
-            for side in [-halves[end], halves[end]] {
-                let flat = std::array::from_fn(|i| flats[end][i] + side * across[i]);
-                let rest = self.on_frond(leaf.frond, flat).0;
-                plant.corners.push(self.corner(leaf, &row, [rest, axis, normal]));
-            }
-        }
-        plant.triangles.extend([[first, first + 1, first + 2], [first + 2, first + 1, first + 3]]);
     }
 }
 

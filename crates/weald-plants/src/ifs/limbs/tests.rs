@@ -187,6 +187,48 @@ fn the_main_stem_is_drawn_on_every_level_whose_leaves_are_smaller_than_the_whole
 }
 
 #[test]
+fn corners_of_a_leaf_say_how_far_up_and_on_which_edge_they_are_and_so_does_the_last_word() {
+    let plant = plant("spruce");
+    let is_of_leaf = |corner: &&Corner| !corner.is_stem && corner.levels[0] == 0;
+    let leaves: Vec<_> = plant.corners.iter().filter(is_of_leaf).collect();
+    for corner in &leaves {
+        let is_on_axis = corner.rest == corner.axis;
+        assert_eq!(corner.side == 0, is_on_axis, "{corner:?}");
+        assert!(!is_on_axis || corner.up == 0.0 || corner.up == 1.0, "a foot or a tip: {corner:?}");
+        let look = corner.packed()[11];
+        assert!(((look >> 23 & 31) as f32 / 31.0 - corner.up).abs() < 0.017, "{corner:?}");
+        assert_eq!((look >> 28) as i8 - 1, corner.side);
+    }
+    let [left, right] = [-1, 1].map(|side| leaves.iter().filter(|corner| corner.side == side).count());
+    let [feet, tips] = [0.0, 1.0].map(|up| leaves.iter().filter(|corner| corner.up == up).count());
+    assert!(left == right && feet == tips && left >= feet && feet > 1000, "{left} {right} {feet} {tips}");
+}
+
+#[test]
+fn the_trunk_of_a_crown_is_round_from_close_by_and_stands_in_the_ground() {
+    for name in ["spruce", "crown"] {
+        let plant = plant(name);
+        // Of its lower part: slender stems are ribbons on these levels too.
+        let is_round = |corner: &&Corner| {
+            let is_of_trunk = plant.limbs[corner.limb as usize].parent.is_none() && corner.rest[1] < 0.2;
+            corner.is_stem && corner.levels == [0, 1] && is_of_trunk
+        };
+        let round: Vec<_> = plant.corners.iter().filter(is_round).collect();
+        for corner in &round {
+            let out: f32 = (0..3).map(|at| (corner.rest[at] - corner.axis[at]) * corner.normal[at]).sum();
+            assert!(out > 0.9 * apart(corner.rest, corner.axis) && out > 0.0, "{name}: {corner:?}");
+        }
+        let on_foot = round.iter().filter(|corner| corner.rest[1] < 0.0);
+        let azimuths: Vec<_> = on_foot.map(|corner| corner.normal[2].atan2(corner.normal[0])).collect();
+        for turn in [-3.0_f32, -1.5, 0.0, 1.5, 3.0] {
+            assert!(azimuths.iter().any(|azimuth| (azimuth - turn).cos() > 0.9), "{name}: none to {turn}");
+        }
+        let flat = plant.corners.iter().filter(|corner| corner.is_stem && corner.levels[0] == 1);
+        assert!(flat.count() > 0, "{name} has ribbons farther off");
+    }
+}
+
+#[test]
 fn a_rosette_stands_on_the_ground_with_its_stipes() {
     let fern = plant("fern");
     let stems = fern.corners.iter().filter(|corner| corner.is_stem);

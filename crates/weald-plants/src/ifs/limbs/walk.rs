@@ -184,10 +184,11 @@ impl Walk {
         let key = hash2(part.key, digit as i64, 1);
         let own = maps.of(digit, key);
         let map = part.map.after(&own);
+        let ratio = map.ratio();
         let (within, branch) = match weighted.role {
             Role::Stem => return None,
             Role::Trunk => (part.within.after(&own), part.branch),
-            Role::Branch if map.ratio() <= maps.still => (part.within.after(&own), part.branch),
+            Role::Branch if ratio <= maps.still => (part.within.after(&own), part.branch),
             Role::Branch => {
                 let along = shape.share_above_root(part.within.at(own.at(maps.ifs.root())));
                 let order = self.branches[part.branch].order + 1;
@@ -196,7 +197,7 @@ impl Walk {
             }
         };
         // Maps that contract in a row but not one by one may lengthen at first.
-        let size = map.ratio().min(part.size);
+        let size = ratio.min(part.size);
         let counts = if weighted.role == Role::Trunk { maps.axis * size } else { size };
         Some(Open { map, within, branch, size, counts: counts.min(part.counts), before: part.counts, key })
     }

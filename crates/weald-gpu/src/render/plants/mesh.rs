@@ -1,0 +1,166 @@
+//! The leaves, stems and limbs of a kind of plants on a device.
+
+use weald::Error;
+use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
+use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
+
+use super::lists::{LISTS, SEATS, SHARED_SEATS, VIEWS};
+use super::pipelines::VERTEX_WORDS;
+use crate::gpu::Gpu;
+use crate::memory::Store;
+use crate::render::records::Records;
+use crate::render::textures::{Canvas, Shape};
+use crate::transfer;
+
+/// Bytes of an indexed indirect draw.
+pub(super) const DRAW: u64 = 20;
+
+/// Words of how a limb is carried, and limbs beside each other in a row of a texture, as `carried.wgsl` has them.
+const CARRIED: u64 = 4;
+const CARRIED_ACROSS: u32 = 4096;
+
+/// Leaves and stems: their corners, triangles of them, and what each list draws in each view.
+#[derive(Debug)]
+pub(super) struct Mesh {
+    pub(super) corners: Store,
+    pub(super) indices: Store,
+    pub(super) draws: Store,
+}
+
+impl Mesh {
+    pub(super) fn new(gpu: &Gpu, limbs: &Limbs) -> Result<Self, Error> {
+        let (indices, templates) = lists(limbs);
+        let corners: Vec<_> = limbs.corners.iter().map(|corner| vertex(corner, &limbs.limbs)).collect();
+        let usage = BufferUsages::STORAGE | BufferUsages::INDIRECT;
+        Ok(Self {
+            corners: filled(gpu, "leaves of plants", corners.as_flattened(), BufferUsages::VERTEX)?,
+            indices: filled(gpu, "corners of leaves", &indices, BufferUsages::INDEX)?,
+            draws: filled(gpu, "draws of plants", &templates, usage)?,
+        })
+    }
+}
+
+/// Limbs in their layers, and room for how they are carried on each seat: for the limbs on them, and for leaves.
+#[derive(Debug)]
+pub(super) struct CarriedLimbs {
+    pub(super) layers: Store,
+    pub(super) carried: Store,
+    limbs: Records,
+    texels: Canvas,
+}
+
+impl CarriedLimbs {
+    pub(super) fn new(gpu: &Gpu, limbs: &[Limb]) -> Result<Self, Error> {
+        let seats = u64::from(SEATS.iter().sum::<u32>() + SHARED_SEATS);
+        let places = seats * limbs.len().max(1) as u64;
+        let records = Records::new(gpu, "limbs of plants", limbs.len() as u64)?;
+        let packed: Vec<_> = limbs.iter().map(Limb::packed).collect();
+        records.write(gpu, &packed)?;
+        Ok(Self {
+            layers: filled(gpu, "layers of limbs", &layers(limbs), BufferUsages::STORAGE)?,
+            carried: Store::new(
+                gpu,
+                "limbs as they are carried",
+                4 * CARRIED * places,
+                BufferUsages::STORAGE,
+            )?,
+            limbs: records,
+            texels: carried_texels(gpu, places)?,
+        })
+    }
+
+    /// What leaves read.
+    pub(super) fn for_leaves(&self) -> BindingResource<'_> {
+        BindingResource::TextureView(&self.texels.view)
+    }
+
+    /// The limbs, and what leaves read.
+    pub(super) fn textures(&self) -> [BindingResource<'_>; 2] {
+        [self.limbs.resource(), self.for_leaves()]
+    }
+}
+
+/// A buffer that holds these words.
+pub(super) fn filled(gpu: &Gpu, what: &str, words: &[u32], usage: BufferUsages) -> Result<Store, Error> {
+    let bytes: &[u8] = bytemuck::cast_slice(words);
+    let store =
+        Store::new(gpu, what, bytes.len() as u64, usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)?;
+    transfer::write(gpu, &store.buffer, bytes)?;
+    Ok(store)
+}
+
+/// Room for how so many limbs are carried, from which leaves read.
+fn carried_texels(gpu: &Gpu, places: u64) -> Result<Canvas, Error> {
+    let rows = places.div_ceil(u64::from(CARRIED_ACROSS)).try_into().unwrap_or(u32::MAX);
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::STORAGE_BINDING;
+    let shape = Shape::flat([CARRIED_ACROSS, rows], TextureFormat::Rgba32Uint, usage);
+    Canvas::new(gpu, "limbs as leaves read them", shape)
+}
+
+/// A corner with the limb on which it is, none for what no wind moves.
+fn vertex(corner: &Corner, limbs: &[Limb]) -> [u32; VERTEX_WORDS] {
+    let limb = limbs.get(corner.limb as usize).map_or([0; 8], Limb::packed);
+    let words = corner.packed().into_iter().chain(limb).collect::<Vec<_>>();
+    words.try_into().expect("twelve words of a corner and eight of a limb")
+}
+
+/// The limbs in layers, those on the ground first, each layer on the one before: how many layers there are, where each
+/// starts, where the last ends, and the limbs in that order.
+fn layers(limbs: &[Limb]) -> Vec<u32> {
+    let mut depths: Vec<usize> = Vec::with_capacity(limbs.len());
+    for limb in limbs {
+        depths.push(limb.parent.map_or(0, |parent| depths[parent as usize] + 1));
+    }
+    let mut order: Vec<u32> = (0..limbs.len() as u32).collect();
+    order.sort_by_key(|&limb| depths[limb as usize]);
+    let count = depths.iter().max().map_or(0, |deepest| deepest + 1);
+    let start = |layer| order.partition_point(|&limb| depths[limb as usize] < layer) as u32;
+    [count as u32].into_iter().chain((0..=count).map(start)).chain(order.iter().copied()).collect()
+}
+
+/// The corners of all lists, and what each draws of them in each view.
+fn lists(limbs: &Limbs) -> (Vec<u32>, Vec<u32>) {
+    let last = LEVELS as u32 - 1;
+    let (mut indices, mut draws) = (Vec::new(), Vec::new());
+    for list in 0..LISTS as u32 {
+        let corners = limbs.triangles_of([list / 2, list.div_ceil(2).min(last)]);
+        draws.extend([corners.len() as u32, 0, indices.len() as u32, 0, 0]);
+        indices.extend(corners);
+    }
+    (indices, draws.repeat(VIEWS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::batch::limbs_of;
+    use super::*;
+    use crate::render::records::WORDS;
+
+    #[test]
+    fn layers_hold_every_limb_once_and_each_on_the_layer_before() {
+        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+        let limbs = limbs_of(&ifs).limbs;
+        let words = layers(&limbs);
+        let count = words[0] as usize;
+        let (ends, order) = words[1..].split_at(count + 1);
+        let mut layer_of = vec![usize::MAX; limbs.len()];
+        for layer in 0..count {
+            for &limb in &order[ends[layer] as usize..ends[layer + 1] as usize] {
+                let before = limbs[limb as usize].parent.map(|parent| layer_of[parent as usize]);
+                assert_eq!(before, layer.checked_sub(1), "limb {limb}");
+                layer_of[limb as usize] = layer;
+            }
+        }
+        assert!(count > 2 && order.len() == limbs.len() && !layer_of.contains(&usize::MAX));
+    }
+
+    #[test]
+    fn a_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
+        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+        let limbs = limbs_of(&ifs);
+        let (indices, draws) = lists(&limbs);
+        let bytes = 4 * (indices.len() + VERTEX_WORDS * limbs.corners.len() + 8 * limbs.limbs.len());
+        assert!((1 << 20..6 << 20).contains(&bytes), "{bytes}");
+        assert_eq!((4 * WORDS, draws.len()), (32, VIEWS * LISTS * DRAW as usize / 4));
+    }
+}

@@ -1,0 +1,99 @@
+// Light of the ground that the picture before has: it depends little on where the eye is, so that it is taken from the place
+// at which its point was seen then, and made anew for one pixel in four and wherever it was not seen (`reprojection.rs`).
+
+@group(2) @binding(6) var light_before: texture_2d<f32>;
+@group(2) @binding(7) var depths_before: texture_depth_2d;
+
+// The kind of pixels that are lit by the picture before: beyond all kinds that are lit anew.
+const REPROJECTED = 31u;
+
+// What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, and
+// nothing where something else than ground is seen. It is taken down to OLDEST.
+const AGE = 0.125;
+const OLDEST = 0.45;
+
+// Pixels along the side of a block, of which one in four is due in each picture: software lights four by four at once.
+const BLOCK = 4u;
+
+// By which share the depth of the same point may differ: between depths it is interpolated, which is exact on planes.
+const SAME_POINT = 0.01;
+
+// How far off the middle of a pixel counts as there, in pixels: what is rounded does not blur a camera that stands still.
+const AT_REST = 0.015625;
+
+// By which share a point may be nearer or farther than before: haze and detail go by it.
+const SAME_DISTANCE = 0.03;
+
+// Least share of the texels around a place that must show ground.
+const SEEN_BEFORE = 0.5;
+
+// Whether a pixel is lit anew by its turn.
+fn is_due(position: vec2<f32>) -> bool {
+    let block = vec2<u32>(position) / BLOCK;
+    return (block.x & 1u) + 2u * ((block.x ^ block.y) & 1u) == u32(frame.before_forward.w);
+}
+
+// Where a point of this picture was in the one before, in pixels, and how deep; 0 where its light would be another one now.
+fn seen_before(position: vec2<f32>, depth: f32) -> vec3<f32> {
+    let here = along_at(position) * (frame.forward.w / depth);
+    let relative = here + frame.before_eye.xyz;
+    let size = vec2<f32>(textureDimensions(light_before));
+    let ahead = dot(relative, frame.before_forward.xyz);
+    let aside = vec2<f32>(dot(relative, frame.before_right.xyz), -dot(relative, frame.before_up.xyz));
+    let half = vec2<f32>(frame.before_right.w, frame.before_up.w);
+    let place = (0.5 + 0.5 * aside / (half * max(ahead, frame.forward.w))) * size;
+    let distance = length(here);
+    let is_alike = abs(length(relative) - distance) <= SAME_DISTANCE * distance;
+    return vec3<f32>(place, select(0.0, frame.forward.w / ahead, is_alike && ahead > frame.forward.w));
+}
+
+// The light of ground at such a place and depth, with its age; none where it is too old, or was not seen.
+fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
+    let nearest = round(place.xy - 0.5);
+    let middle = select(place.xy - 0.5, nearest, abs(place.xy - 0.5 - nearest) < vec2<f32>(AT_REST));
+    let start = floor(middle);
+    let share = middle - start;
+    let last = vec2<i32>(textureDimensions(light_before)) - 1;
+    var sum = vec3<f32>(0.0);
+    var depth = 0.0;
+    var seen = 0.0;
+    var youth = 1.0;
+    var corner = 0;
+    loop {
+        let aside = vec2<i32>(corner & 1, corner >> 1u);
+        let at = clamp(vec2<i32>(start) + aside, vec2<i32>(0), last);
+        let light = textureLoad(light_before, at, 0);
+        let weights = select(1.0 - share, share, aside == vec2<i32>(1));
+        let weight = select(0.0, weights.x * weights.y, light.w > 0.0);
+        sum += weight * light.xyz;
+        depth += weight * textureLoad(depths_before, at, 0);
+        seen += weight;
+        youth = select(youth, min(youth, light.w), weight > 0.02);
+        corner++;
+        if corner >= 4 {
+            break;
+        }
+    }
+    let is_within = all(place.xy >= vec2<f32>(0.0)) && all(place.xy <= vec2<f32>(last + 1));
+    let is_same = place.z > 0.0 && abs(depth - place.z * seen) <= SAME_POINT * place.z * seen;
+    let is_known = is_within && is_same && seen > SEEN_BEFORE && youth > OLDEST;
+    return select(vec4<f32>(0.0), vec4<f32>(sum / max(seen, 1e-6), youth - AGE), is_known);
+}
+
+struct LightBefore {
+    @location(0) light: vec4<f32>,
+    @builtin(frag_depth) kind: f32,
+}
+
+@fragment
+fn reprojected_fragment(@builtin(position) position: vec4<f32>) -> LightBefore {
+    let depth = textureLoad(ground_depths, vec2<i32>(position.xy), 0);
+    if (depth <= 0.0) | is_hidden(position.xy, 0) | is_due(position.xy) {
+        discard;
+    }
+    let light = light_seen_before(seen_before(position.xy, depth));
+    if light.w <= 0.0 {
+        discard;
+    }
+    return LightBefore(light, f32(REPROJECTED) * KIND);
+}

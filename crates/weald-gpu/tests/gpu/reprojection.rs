@@ -1,0 +1,99 @@
+//! Light that a window's picture takes from the one before: what is seen is what a picture shows that is lit anew.
+
+use crate::flip::flip;
+use crate::programs::gpu;
+use crate::scenes::{above, lakes, options, view};
+use weald::Landscape;
+use weald::picture::{Camera, Image, LitScene};
+use weald_gpu::{Renderer, SceneUpdate, Screen};
+
+/// Pictures of a camera that moves, more than light may be old.
+const PICTURES: u16 = 12;
+
+/// What is drawn, and a view of a window onto it.
+struct Shown {
+    scene: LitScene,
+    renderer: Renderer,
+    screen: Screen,
+}
+
+impl Shown {
+    fn of(landscape: &Landscape) -> Option<Self> {
+        let scene = LitScene::new(&view(), landscape).expect("a scene");
+        let mut renderer = Renderer::planted(&gpu()?, (&scene, landscape), options(1)).expect("drawn");
+        let screen = renderer.screen([320, 180]).expect("it fits");
+        Some(Self { scene, renderer, screen })
+    }
+
+    fn draw(&mut self, camera: &Camera) -> Image {
+        self.renderer.draw_on(&mut self.screen, camera).expect("drawn");
+        self.screen.image().expect("read back")
+    }
+
+    fn anew(&mut self, camera: &Camera) -> Image {
+        self.renderer.render(camera).expect("drawn")
+    }
+}
+
+/// Bytes that differ, and by how much at most.
+fn differing(a: &Image, b: &Image) -> (usize, u8) {
+    let differences =
+        a.rgb.iter().zip(&b.rgb).map(|(a, b)| a.abs_diff(*b)).filter(|difference| *difference > 0);
+    differences.fold((0, 0), |(count, most), difference| (count + 1, most.max(difference)))
+}
+
+#[test]
+fn a_camera_that_moves_sees_what_a_picture_shows_that_is_lit_anew() {
+    let Some(mut shown) = Shown::of(&lakes()) else { return };
+    let at = |number: u16| {
+        let step = f32::from(number);
+        above(&shown.scene, [1600.0 + 6.0 * f64::from(step), 1900.0], 300.0, 25.0, 0.4 * step)
+    };
+    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let mut seen = shown.anew(&cameras[0]);
+    for camera in &cameras {
+        seen = shown.draw(camera);
+    }
+    let camera = &cameras[usize::from(PICTURES) - 1];
+    let anew = shown.anew(camera);
+    let found = flip(&seen, &anew).mean;
+    // Some light is that of pictures before, and nothing is seen of it.
+    assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
+    // Between texels some sharpness is lost: 0.029; of the nearest texel it would be 0.055.
+    assert!(found < 0.04, "{found}");
+    // The same camera far from where it was before sees nothing of that.
+    let away = above(&shown.scene, [1000.0, 1000.0], 40.0, 10.0, 200.0);
+    assert_eq!(differing(&shown.draw(&away), &shown.anew(&away)), (0, 0));
+}
+
+#[test]
+fn a_camera_that_stands_still_keeps_a_sharp_picture() {
+    let Some(mut shown) = Shown::of(&lakes()) else { return };
+    for camera in [shown.scene.camera(), above(&shown.scene, [1600.0, 1900.0], 60.0, 15.0, 20.0)] {
+        let anew = shown.anew(&camera);
+        for _ in 0..PICTURES {
+            let seen = shown.draw(&camera);
+            assert_eq!(differing(&seen, &anew), (0, 0));
+        }
+    }
+}
+
+#[test]
+fn light_of_another_scene_or_of_long_ago_is_not_taken() {
+    let Some(mut shown) = Shown::of(&lakes()) else { return };
+    let camera = shown.scene.camera();
+    shown.draw(&camera);
+    // The lakes are gone: their beds are dry at once.
+    let mut dry = lakes();
+    let size = dry.domain.size;
+    dry.insert("water", "m", weald::Field::filled(size, 0.0));
+    let changed = shown.scene.changed(&view(), &dry).expect("a scene");
+    shown.renderer.update(SceneUpdate::of(&changed)).expect("it fits");
+    // All of it goes over with a picture that waits; the next one of the window takes nothing of before.
+    let anew = shown.anew(&camera);
+    assert_eq!(differing(&shown.draw(&camera), &anew), (0, 0));
+    // Water flows meanwhile.
+    shown.renderer.set_time(3.0);
+    let later = shown.draw(&camera);
+    assert_eq!(differing(&later, &shown.anew(&camera)), (0, 0));
+}
