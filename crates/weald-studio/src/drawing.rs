@@ -2,12 +2,20 @@
 
 use std::time::Duration;
 
-use eframe::egui::TextureId;
+use eframe::egui::{Context, TextureId};
 use weald::Error;
 use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
 
 use crate::work::{Shown, Surface};
+
+/// Seconds that a click may take on software, where what a hand does is seen only after a picture.
+const LONGEST_CLICK: f64 = 5.0;
+
+/// Has a click be one however long the picture takes that is drawn between its beginning and its end.
+pub(crate) fn allow_slow_clicks(context: &Context) {
+    context.options_mut(|options| options.input_options.max_click_duration = LONGEST_CLICK);
+}
 
 /// Draws the landscape of the window. Nothing waits for a picture.
 pub(crate) trait Drawing {

@@ -21,7 +21,7 @@ use crate::brushes::{Settings, Stroke};
 use crate::dialogs;
 use crate::dialogs::{Chooser, Dialog};
 use crate::document::Document;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, allow_slow_clicks};
 use crate::looks::Looks;
 use crate::navigation::Mode;
 use crate::on_page::OnPage;
@@ -267,6 +267,9 @@ impl Studio {
             Some(viewport) => Box::new(viewport),
             None => Box::new(Rays::new(context, options.finest)),
         };
+        if viewport.is_software() {
+            allow_slow_clicks(context);
+        }
         let start = what.map(Project::open).transpose()?;
         let start = start.or_else(|| own.left_behind().into_iter().find_map(Project::left_in));
         let asked = (start.is_none() && !options.plays).then_some(Asked::Start);

@@ -31,9 +31,6 @@ const SLICE: f64 = 0.025;
 /// What a finer picture may take when all rests: controls that are touched meanwhile wait for it on software.
 const AT_REST: f64 = 4.0;
 
-/// How long a click may take on software, where what a hand does is seen only after a picture.
-const LONGEST_CLICK: f64 = 5.0;
-
 /// Parts of the full width and height that pictures are drawn at, coarse to fine.
 const SCALES: [f32; 5] = [0.125, 0.25, 0.5, 0.75, 1.0];
 
@@ -121,9 +118,6 @@ impl Viewport {
         #[cfg(not(target_arch = "wasm32"))]
         if gpu.is_software() && !window.target_format.is_srgb() {
             context.add_plugin(Interface::new(window));
-        }
-        if gpu.is_software() {
-            context.options_mut(|options| options.input_options.max_click_duration = LONGEST_CLICK);
         }
         let told = context.clone();
         let scenes = Scenes::new(gpu.clone(), move || told.request_repaint())?;

@@ -151,6 +151,7 @@ impl Page {
         let state = serde_json::json!({
             "idle": studio.is_settled() && self.arrived.borrow().is_empty(),
             "kept": studio.is_kept(),
+            "frames": self.context.borrow().as_ref().map(Context::cumulative_frame_nr),
             "plays": status.plays,
             "steps": status.steps,
             "engine": status.engine,

@@ -90,12 +90,12 @@ function expect(holds, what) {
   if (!holds) failures.push(what);
 }
 
-async function until(what, test, seconds = 120) {
+async function until(what, test, seconds = 120, seen = () => "") {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     const found = await test();
     if (found) return found;
-    if (Date.now() > end) throw new Error(`${what} did not come within ${seconds} s`);
+    if (Date.now() > end) throw new Error(`${what} did not come within ${seconds} s${seen()}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
@@ -119,10 +119,12 @@ class Visitor {
   }
 
   is(what, test, seconds) {
-    return until(`${this.name}: ${what}`, async () => {
-      const state = await this.state();
-      return state && test(state) ? state : null;
-    }, seconds);
+    let last = null;
+    const holds = async () => {
+      last = await this.state();
+      return last && test(last) ? last : null;
+    };
+    return until(`${this.name}: ${what}`, holds, seconds, () => `: ${JSON.stringify({ ...last, text: undefined })}`);
   }
 
   // What the page says above the studio.
@@ -135,11 +137,18 @@ class Visitor {
     return this.page.evaluate((label) => window.weald.page.find(label), label);
   }
 
-  async click(label) {
-    const [place] = await until(`${this.name}: "${label}"`, async () => {
-      const places = await this.places(label);
-      return places.length ? places : null;
+  // The same once they lie where they lay two pictures before: what has just come moves what stands beside it.
+  async settledPlaces(label) {
+    let [before, since] = [null, 0];
+    return until(`${this.name}: "${label}"`, async () => {
+      const [places, { frames }] = [await this.places(label), await this.state()];
+      if (!places.length || JSON.stringify(places) !== JSON.stringify(before)) [before, since] = [places, frames];
+      return places.length && frames >= since + 2 ? places : null;
     });
+  }
+
+  async click(label) {
+    const [place] = await this.settledPlaces(label);
     await this.page.mouse.move((place[0] + place[2]) / 2, (place[1] + place[3]) / 2);
     await new Promise((resolve) => setTimeout(resolve, 120));
     await this.page.mouse.down();
@@ -149,7 +158,7 @@ class Visitor {
   }
 
   async drag(label, from, to) {
-    const [place] = await this.places(label);
+    const [place] = await this.settledPlaces(label);
     const at = ([x, y]) => [place[0] + x * (place[2] - place[0]), place[1] + y * (place[3] - place[1])];
     await this.page.mouse.move(...at(from));
     await this.page.mouse.down();
@@ -369,10 +378,8 @@ async function tour(kind, address, wanted) {
     }
     await visitor.click("Export");
     // The button of the question has the name of that of the toolbar: it is the last.
-    const places = await until("the question", async () => {
-      const places = await visitor.places("Export");
-      return places.length > 1 ? places : null;
-    });
+    await until("the question", async () => (await visitor.places("Export")).length > 1);
+    const places = await visitor.settledPlaces("Export");
     await visitor.picture("question");
     const lowest = places.reduce((one, other) => (other[1] > one[1] ? other : one));
     await visitor.page.mouse.click((lowest[0] + lowest[2]) / 2, (lowest[1] + lowest[3]) / 2, { delay: 80 });

@@ -97,3 +97,17 @@ fn on_a_narrow_screen_the_landscape_has_the_width_and_one_part_lies_below() {
     assert!(harness.query_by_label("One step").is_none(), "one part at a time");
     assert!(harness.query_by_label("2. hydraulic").is_some());
 }
+
+#[test]
+fn a_click_is_one_where_pictures_take_long() {
+    let (_folder, mut harness) = opened([900.0, 600.0]);
+    let place = harness.get_by_label("Play or pause").rect().center();
+    harness.hover_at(place);
+    harness.step();
+    harness.drag_at(place);
+    harness.step();
+    // Frames of a quarter of a second.
+    harness.run_steps(12);
+    harness.drop_at(place);
+    until(&mut harness, "a simulation that runs", |studio| studio.status().plays);
+}
