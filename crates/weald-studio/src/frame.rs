@@ -79,9 +79,7 @@ impl Studio {
                 self.say(self.said_of_saving());
             }
         }
-        // A copy that is written after what was saved would be taken up in place of it.
-        let saves = self.status.done < self.saving;
-        if self.kept_at.elapsed() >= KEPT_EVERY && !saves {
+        if self.kept_at.elapsed() >= KEPT_EVERY {
             self.kept_at = Instant::now();
             self.keep_unsaved();
         }
@@ -106,7 +104,10 @@ impl Studio {
     fn keep_unsaved(&mut self) {
         let state = self.state();
         if self.document.diagnostics().is_empty() {
+            // A copy that is written after what was saved would be taken up in place of it.
+            let saves = self.status.done < self.saving;
             if self.opened == state.revision
+                && !saves
                 && let Some(file) = self.project.keep(&self.own, state)
             {
                 self.work.ask(Task::Keep(file));

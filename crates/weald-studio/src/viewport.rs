@@ -69,7 +69,7 @@ pub fn device_setup() -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = Backends::PRIMARY;
     // Shaders without the lines of their text, which take a tenth of the time that it takes to compile them.
-    setup.instance_descriptor.flags = InstanceFlags::empty();
+    setup.instance_descriptor.flags.remove(InstanceFlags::DEBUG | InstanceFlags::VALIDATION);
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     WgpuSetup::CreateNew(setup)
 }
@@ -289,8 +289,10 @@ impl Drawing for Viewport {
         });
         let scale = if rests { next } else { self.moving };
         let is_finer = rests && self.drawn.is_some_and(|(_, drawn)| scale > drawn);
-        self.rests = !moves && !is_finer && rests;
-        if !moves && !is_finer {
+        // What was drawn last while it moved becomes sharp.
+        let is_sharper = rests && !is_finer && !stage.screen.is_settled();
+        self.rests = !moves && !is_finer && !is_sharper && rests;
+        if !moves && !is_finer && !is_sharper {
             return Ok((!rests).then_some(REST));
         }
         let size = full.map(|side| ((side as f32 * SCALES[scale]) as u32).max(16));

@@ -90,12 +90,15 @@ function expect(holds, what) {
   if (!holds) failures.push(what);
 }
 
+// How many times longer than usual all may take.
+const PATIENCE = 2;
+
 async function until(what, test, seconds = 120, seen = () => "") {
-  const end = Date.now() + 1000 * seconds;
+  const end = Date.now() + 1000 * PATIENCE * seconds;
   for (;;) {
     const found = await test();
     if (found) return found;
-    if (Date.now() > end) throw new Error(`${what} did not come within ${seconds} s${seen()}`);
+    if (Date.now() > end) throw new Error(`${what} did not come within ${PATIENCE * seconds} s${seen()}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
@@ -139,12 +142,22 @@ class Visitor {
 
   // The same once they lie where they lay two pictures before: what has just come moves what stands beside it.
   async settledPlaces(label) {
-    let [before, since] = [null, 0];
+    let [before, since] = ["", 0];
+    const look = (label) => [window.weald.page.find(label), JSON.parse(window.weald.page.state())?.frames ?? 0];
     return until(`${this.name}: "${label}"`, async () => {
-      const [places, { frames }] = [await this.places(label), await this.state()];
-      if (!places.length || JSON.stringify(places) !== JSON.stringify(before)) [before, since] = [places, frames];
+      const [places, frames] = await this.page.evaluate(look, label);
+      // They come in any order.
+      places.sort((one, other) => one[1] - other[1] || one[0] - other[0]);
+      const now = JSON.stringify(places);
+      if (!places.length || now !== before) [before, since] = [now, frames];
       return places.length && frames >= since + 2 ? places : null;
     });
+  }
+
+  // The studio has seen what the hand did.
+  async framed() {
+    const { frames } = await this.is("a frame", (state) => state);
+    await this.is("frames", (state) => state.frames >= frames + 2);
   }
 
   async click(label) {
@@ -162,10 +175,12 @@ class Visitor {
     const at = ([x, y]) => [place[0] + x * (place[2] - place[0]), place[1] + y * (place[3] - place[1])];
     await this.page.mouse.move(...at(from));
     await this.page.mouse.down();
+    await this.framed();
     for (let step = 1; step <= 8; step++) {
       await this.page.mouse.move(...at([0, 1].map((axis) => from[axis] + ((to[axis] - from[axis]) * step) / 8)));
       await new Promise((resolve) => setTimeout(resolve, 40));
     }
+    await this.framed();
     await this.page.mouse.up();
   }
 
@@ -289,12 +304,16 @@ function native(text) {
 const QUIET = ["--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 const DEVICE = ["--enable-unsafe-webgpu", "--enable-features=Vulkan", "--use-vulkan=swiftshader", "--use-angle=swiftshader", "--use-webgpu-adapter=swiftshader"];
 
+// A busy machine takes its time to start a browser, and to answer.
+const SLOWLY = { timeout: 240_000, protocolTimeout: 900_000 };
+
 const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 
 function launched(kind, downloads) {
   if (kind === "firefox") return firefox(downloads);
   const drawing = kind === "device" ? DEVICE : ["--enable-unsafe-swiftshader"];
   return puppeteer.launch({
+    ...SLOWLY,
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
     ignoreDefaultArgs: ["--disable-gpu"],
@@ -307,6 +326,7 @@ async function firefox(downloads) {
   const server = spawn("Xvfb", ["-displayfd", "3", "-screen", "0", "1400x1000x24"], { stdio: ["ignore", "ignore", "ignore", "pipe"] });
   const [display] = await Promise.race([once(server.stdio[3], "data"), once(server, "error").then(([cause]) => Promise.reject(cause))]);
   const browser = await puppeteer.launch({
+    ...SLOWLY,
     browser: "firefox",
     executablePath: FIREFOX,
     headless: false,
@@ -360,7 +380,7 @@ async function tour(kind, address, wanted) {
 
     if (device) {
       await visitor.drop("grown.toml", GROWN);
-      await visitor.is("ferns and grass", (state) => state.columns === 64 && state.idle && state.whole, 240);
+      await visitor.is("ferns and grass", (state) => state.columns === 64 && state.idle && state.whole && state.drawn, 240);
       await visitor.picture("grown");
     }
     await visitor.drop("valley.toml", RECIPE);
@@ -497,6 +517,8 @@ async function paintedOnDevice(visitor) {
 }
 
 async function lostDevice(visitor) {
+  await visitor.is("what is kept", (state) => state.idle && state.whole && state.kept);
+  await visitor.page.evaluate(() => window.weald.written());
   await visitor.click("Play or pause");
   await visitor.is("a simulation that runs", (state) => state.plays);
   await visitor.loseSimulation();

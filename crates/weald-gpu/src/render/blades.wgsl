@@ -62,7 +62,8 @@ fn far_blade(ends: ListEnds, @builtin(vertex_index) vertex: u32, @builtin(instan
 
 @fragment
 fn blade_fragment(in: Leaf) -> @location(0) vec4<f32> {
-    let point = point_at(in.position.xy, in.position.z);
+    // The middle of a pixel may lie beside what it has samples of, where a depth is none.
+    let point = point_at(in.position.xy, max(in.position.z, 1e-9));
     // A pixel may have a sample on a blade and its middle beside it.
     let light = clamp(vec2<f32>(in.normal.w, in.colour.w), vec2<f32>(0.0), vec2<f32>(1.0));
     return leaf_light(in.colour.xyz, point, in.normal.xyz, light, THROUGH, 1.4);

@@ -124,8 +124,8 @@ impl Frame {
         write(into, &self.numbers, (camera, size), drawn);
     }
 
-    /// Sets those of a cascade of the sun, whose detail is chosen from a viewpoint; of the last nothing slides, and no wind
-    /// blows there.
+    /// Sets those of a cascade of the sun, whose detail is chosen from a viewpoint; the last is drawn once for all moments,
+    /// so that nothing slides there, and plants stand in the wind of the first one.
     pub(super) fn write_cascade(
         &self,
         into: &mut Upload<'_>,

@@ -56,6 +56,11 @@ impl Records {
         Ok(Self { canvas: Canvas::new(gpu, what, Shape::flat([2 * ACROSS, rows], FORMAT, usage))? })
     }
 
+    /// How many fit into a texture of a device.
+    pub(super) fn most(gpu: &Gpu) -> u64 {
+        u64::from(ACROSS) * u64::from(gpu.context.limits.max_texture_dimension_2d)
+    }
+
     pub(super) fn resource(&self) -> BindingResource<'_> {
         BindingResource::TextureView(&self.canvas.view)
     }

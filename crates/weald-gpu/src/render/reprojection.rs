@@ -4,7 +4,8 @@
 //! The light of ground depends on the eye by haze, detail and gloss alone, which change slowly; the point of a pixel is known
 //! from its depth, and so is where the picture before had it. From there its light is taken, between four pixels, unless its
 //! depth there was another one, something grew before it, or the light is older than some pictures. One block of pixels in
-//! four is lit anew by turns, so that no light is older than that, and a camera that stands still has sharp pictures.
+//! four is lit anew by turns, so that no light is older than that, and a camera that has stood still for that long has the
+//! picture that is lit anew as a whole ([`super::screen::Screen::is_settled`]).
 //!
 //! What differs from the source: due pixels are blocks by turns, not random ones, because devices light blocks; and water that
 //! is close by is always lit anew, because it flows. Pictures that come back, and films, are lit anew as a whole: they are the
@@ -56,6 +57,8 @@ pub(super) struct Reprojection {
     kept: Option<Kept>,
     before: Option<Moment>,
     turn: u32,
+    /// How many pictures later all light is that of the camera of the last one, if it stands still.
+    unsettled: u32,
 }
 
 #[derive(Debug)]
@@ -100,7 +103,17 @@ impl Reprojection {
         self.turn = (self.turn + 1) % TURNS;
         // Where this picture is not drawn to its end, the next one is lit anew.
         let before = self.before.take().filter(|before| before.lights(now));
+        self.unsettled = match &before {
+            None => 0,
+            Some(before) if before.camera == now.camera => self.unsettled.saturating_sub(1),
+            Some(_) => TURNS,
+        };
         Ok(before.map(|before| PictureBefore { camera: before.camera, turn: self.turn }))
+    }
+
+    /// Whether the last picture is as one that is lit anew as a whole.
+    pub(super) fn is_settled(&self) -> bool {
+        self.unsettled == 0
     }
 
     /// Says what was drawn: the next picture may take light from it.

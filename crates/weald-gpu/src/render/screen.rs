@@ -1,7 +1,7 @@
 //! Pictures of a window: drawn without waiting, and never read back.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use weald::Error;
@@ -45,6 +45,12 @@ impl Screen {
     /// with the next while there are two.
     pub fn in_flight(&self) -> usize {
         self.in_flight.load(Ordering::Acquire)
+    }
+
+    /// Whether the last picture is what more of them from the same camera would be. One of a camera that has just moved takes
+    /// some light from those before; a few pictures later all of it is its own.
+    pub fn is_settled(&self) -> bool {
+        self.onto.reprojection.lock().unwrap_or_else(PoisonError::into_inner).is_settled()
     }
 
     /// Asks with the next picture what is seen at a place, in pixels rightward and downward from the upper left corner: at

@@ -128,13 +128,17 @@ fn sun_seen_on(point: vec3<f32>, smooth_point: vec3<f32>, normal: vec3<f32>) -> 
     var passed = 1.0;
     var seen = 0.0;
     let first = first_cascade(point);
-    var cascade = min(first, CASCADES - 1);
+    // Far beyond them numbers of texels would be too large to count by ones.
+    if first >= CASCADES {
+        return through_clouds(point);
+    }
+    var cascade = first;
     loop {
         let at = abs(in_cascade(point, cascade).xy);
         let inside = 1.0 - max(at.x, at.y);
         // The last one ends where the landscape does.
         let reached = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
-        let share = select(0.0, reached, inside > 0.0 && first < CASCADES);
+        let share = select(0.0, reached, inside > 0.0);
         let here = select(point, smooth_point, cascade == CASCADES - 1);
         seen += passed * share * seen_in_cascade(here, normal, cascade);
         passed *= 1.0 - share;

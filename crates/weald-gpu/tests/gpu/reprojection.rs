@@ -79,6 +79,25 @@ fn a_camera_that_stands_still_keeps_a_sharp_picture() {
 }
 
 #[test]
+fn a_camera_that_comes_to_rest_has_a_sharp_picture_once_its_view_is_settled() {
+    let Some(mut shown) = Shown::of(&lakes()) else { return };
+    let at = |number: u16| above(&shown.scene, [1600.0 + 6.0 * f64::from(number), 1900.0], 300.0, 25.0, 0.0);
+    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let last = cameras[usize::from(PICTURES) - 1];
+    for (number, camera) in cameras.iter().enumerate() {
+        shown.draw(camera);
+        assert_eq!(shown.screen.is_settled(), number == 0, "the first is lit anew");
+    }
+    let anew = shown.anew(&last);
+    let mut pictures = 0;
+    while !shown.screen.is_settled() {
+        shown.draw(&last);
+        pictures += 1;
+    }
+    assert_eq!((pictures, differing(&shown.draw(&last), &anew)), (4, (0, 0)));
+}
+
+#[test]
 fn light_of_another_scene_or_of_long_ago_is_not_taken() {
     let Some(mut shown) = Shown::of(&lakes()) else { return };
     let camera = shown.scene.camera();

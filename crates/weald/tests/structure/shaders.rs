@@ -65,7 +65,7 @@ fn refused(tokens: TokenStream) -> Vec<String> {
             TokenTree::Ident(word) => {
                 let word = word.to_string();
                 let is_generic = GENERIC.contains(&word.as_str())
-                    || word.starts_with("mat")
+                    || ["mat2x", "mat3x", "mat4x"].iter().any(|of| word.starts_with(of))
                     || word.starts_with("texture");
                 if is_generic && is_mark(tokens.get(at), '<') {
                     at = behind_type(&tokens, at);
@@ -162,6 +162,7 @@ fn what_a_browser_refuses_is_found() {
         "f(a | b + 1u)",
         "a | b & c",
         "a & !b && c",
+        "material < 2u & b",
     ] {
         let text = format!("fn f() -> vec2<f32> {{\n    if {expression} {{ return vec2<f32>(1.0); }}\n}}");
         assert_eq!(refused_in(&text).len(), 1, "{expression}");

@@ -147,7 +147,7 @@ impl Batch {
 
 /// Refuses more plants than a shader can be given at once.
 fn ensure_bound(gpu: &Gpu, count: u64) -> Result<(), Error> {
-    let most = gpu.largest_binding() / (4 * WORDS as u64);
+    let most = (gpu.largest_binding() / (4 * WORDS as u64)).min(Records::most(gpu) / VIEWS as u64);
     if count <= most {
         return Ok(());
     }

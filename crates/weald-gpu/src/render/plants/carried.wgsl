@@ -46,10 +46,10 @@ fn turn_of(plant: PlacedPlant) -> vec4<f32> {
     return normalize(vec4<f32>(unpack2x16snorm(plant.turn.x), unpack2x16snorm(plant.turn.y)));
 }
 
-// The breeze that a plant feels, which is turned as it is.
-fn breeze_of(plant: PlacedPlant) -> LocalWind {
+// The breeze that a plant feels in a view, which is turned as it is. The last cascade is drawn once for all moments.
+fn breeze_of(view: u32, plant: PlacedPlant) -> LocalWind {
     let turn = turn_of(plant);
-    let seconds = frame.moment.x;
+    let seconds = select(frame.moment.x, 0.0, view == VIEWS - 1u);
     let push = wind_push(plant.place.xy, seconds, plant.phase);
     let felt = rotated(vec4<f32>(-turn.xyz, turn.w), vec3<f32>(push.x, 0.0, -push.y));
     return wind_on(felt.xz, seconds, plant.phase);

@@ -41,7 +41,7 @@ fn carry_limbs(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
     if is_shared {
         breeze = shared_breeze(group.x);
     } else {
-        breeze = breeze_of(plants[kept[view * arrayLength(&plants) + group.x]]);
+        breeze = breeze_of(view, plants[kept[view * arrayLength(&plants) + group.x]]);
     }
     let base = (FIRST_SEATS[view] + group.x) * u32(kind.leaflets.z);
     let count = layers[0];

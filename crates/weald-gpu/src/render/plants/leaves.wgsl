@@ -176,7 +176,8 @@ fn leaf_vertex(corner: Corner, starts: ListStarts, @builtin(instance_index) inst
 }
 
 fn plant_light(in: PlantCorner, leaf: OfLeaf) -> vec4<f32> {
-    let point = point_at(in.position.xy, in.position.z);
+    // The middle of a pixel may lie beside what it has samples of, where a depth is none.
+    let point = point_at(in.position.xy, max(in.position.z, 1e-9));
     let normal = in.normal.xyz;
     let turned = length(fwidth(normal));
     var seen = Bark(leaf_colour(clamp(in.look.z, 0.0, 1.0), leaf.age), normal);

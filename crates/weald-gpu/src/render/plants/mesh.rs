@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
+    fn a_placed_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
         let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
         let limbs = limbs_of(&ifs);
         let (indices, draws) = lists(&limbs);

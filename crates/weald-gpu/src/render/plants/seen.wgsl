@@ -54,7 +54,7 @@ fn unpacked_seen(record: Record) -> SeenPlant {
 }
 
 fn seen_plant(view: u32, plant: PlacedPlant) -> SeenPlant {
-    let breeze = breeze_of(plant);
+    let breeze = breeze_of(view, plant);
     return SeenPlant(
         plant.place,
         plant.size,
