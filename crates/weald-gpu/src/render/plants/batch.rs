@@ -102,7 +102,7 @@ impl Batch {
         let starts = room("lists of plants", (VIEWS * (LISTS + 1)) as u64, BufferUsages::VERTEX)?;
         let counts = room("counts of plants", workgroups * (VIEWS * LISTS) as u64, none)?;
         let seen = Records::new(gpu, "plants as they are seen", VIEWS as u64 * count)?;
-        let (mesh, limbs) = (Mesh::new(gpu, of.limbs)?, CarriedLimbs::new(gpu, &of.limbs.limbs)?);
+        let (mesh, limbs) = (Mesh::new(gpu, of.limbs)?, CarriedLimbs::new(gpu, of.limbs)?);
         let to_choose = [&kind, &plants, &kept, &starts, &mesh.draws, &counts];
         let to_carry = [&kind, &plants, &kept, &starts, &limbs.layers, &limbs.carried];
         Ok(Self {

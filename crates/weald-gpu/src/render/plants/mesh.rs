@@ -1,5 +1,7 @@
 //! The leaves, stems and limbs of a kind of plants on a device.
 
+use std::cmp::Reverse;
+
 use weald::Error;
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
 use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
@@ -50,11 +52,12 @@ pub(super) struct CarriedLimbs {
 }
 
 impl CarriedLimbs {
-    pub(super) fn new(gpu: &Gpu, limbs: &[Limb]) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, limbs: &Limbs) -> Result<Self, Error> {
         let seats = u64::from(SEATS.iter().sum::<u32>() + SHARED_SEATS);
-        let places = seats * limbs.len().max(1) as u64;
-        let records = Records::new(gpu, "limbs of plants", limbs.len() as u64)?;
-        let packed: Vec<_> = limbs.iter().map(Limb::packed).collect();
+        let count = limbs.limbs.len() as u64;
+        let places = seats * count.max(1);
+        let records = Records::new(gpu, "limbs of plants", count)?;
+        let packed: Vec<_> = limbs.limbs.iter().map(Limb::packed).collect();
         records.write(gpu, &packed)?;
         Ok(Self {
             layers: filled(gpu, "layers of limbs", &layers(limbs), BufferUsages::STORAGE)?,
@@ -104,18 +107,39 @@ fn vertex(corner: &Corner, limbs: &[Limb]) -> [u32; VERTEX_WORDS] {
     words.try_into().expect("twelve words of a corner and eight of a limb")
 }
 
-/// The limbs in layers, those on the ground first, each layer on the one before: how many layers there are, where each
-/// starts, where the last ends, and the limbs in that order.
-fn layers(limbs: &[Limb]) -> Vec<u32> {
-    let mut depths: Vec<usize> = Vec::with_capacity(limbs.len());
-    for limb in limbs {
+/// The limbs in layers, those on the ground first, each layer on the one before and beginning with those that coarse levels of
+/// detail have: how many layers there are; for each level where each layer's limbs end that it has; and the limbs in that order.
+fn layers(limbs: &Limbs) -> Vec<u32> {
+    let mut depths: Vec<usize> = Vec::with_capacity(limbs.limbs.len());
+    for limb in &limbs.limbs {
         depths.push(limb.parent.map_or(0, |parent| depths[parent as usize] + 1));
     }
-    let mut order: Vec<u32> = (0..limbs.len() as u32).collect();
-    order.sort_by_key(|&limb| depths[limb as usize]);
+    let coarsest = coarsest_levels(limbs);
+    let key = |limb: u32| (depths[limb as usize], Reverse(coarsest[limb as usize]));
+    let mut order: Vec<u32> = (0..limbs.limbs.len() as u32).collect();
+    order.sort_by_key(|&limb| key(limb));
     let count = depths.iter().max().map_or(0, |deepest| deepest + 1);
-    let start = |layer| order.partition_point(|&limb| depths[limb as usize] < layer) as u32;
-    [count as u32].into_iter().chain((0..=count).map(start)).chain(order.iter().copied()).collect()
+    let end = |level, layer| order.partition_point(|&limb| key(limb) <= (layer, Reverse(level))) as u32;
+    let ends = (0..LEVELS as u32).flat_map(|level| (0..count).map(move |layer| (level, layer)));
+    let ends = ends.map(|(level, layer)| end(level, layer));
+    [count as u32].into_iter().chain(ends).chain(order.iter().copied()).collect()
+}
+
+/// The coarsest level of detail of which some corner hangs on each limb, or on one that it carries.
+fn coarsest_levels(limbs: &Limbs) -> Vec<u32> {
+    let mut coarsest = vec![0; limbs.limbs.len()];
+    for corner in &limbs.corners {
+        let level = corner.levels[1];
+        let mut on = Some(corner.limb);
+        // What carries it has been climbed to where it has that level.
+        while let Some(known) =
+            on.and_then(|limb| coarsest.get_mut(limb as usize)).filter(|known| **known < level)
+        {
+            *known = level;
+            on = on.and_then(|limb| limbs.limbs[limb as usize].parent);
+        }
+    }
+    coarsest
 }
 
 /// The corners of all lists, and what each draws of them in each view.
@@ -140,18 +164,53 @@ mod tests {
     fn layers_hold_every_limb_once_and_each_on_the_layer_before() {
         let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
         let limbs = limbs_of(&ifs).limbs;
-        let words = layers(&limbs);
-        let count = words[0] as usize;
-        let (ends, order) = words[1..].split_at(count + 1);
         let mut layer_of = vec![usize::MAX; limbs.len()];
-        for layer in 0..count {
-            for &limb in &order[ends[layer] as usize..ends[layer + 1] as usize] {
+        let layers = layers_of(&limbs_of(&ifs), 0);
+        for (layer, numbers) in layers.iter().enumerate() {
+            for &limb in numbers {
                 let before = limbs[limb as usize].parent.map(|parent| layer_of[parent as usize]);
                 assert_eq!(before, layer.checked_sub(1), "limb {limb}");
                 layer_of[limb as usize] = layer;
             }
         }
-        assert!(count > 2 && order.len() == limbs.len() && !layer_of.contains(&usize::MAX));
+        assert!(layers.len() > 2 && layers.concat().len() == limbs.len() && !layer_of.contains(&usize::MAX));
+    }
+
+    /// The limbs of each layer that a level of detail has, as the shader finds them.
+    fn layers_of(limbs: &Limbs, level: usize) -> Vec<Vec<u32>> {
+        let words = layers(limbs);
+        let count = words[0] as usize;
+        let (ends, order) = words[1..].split_at(LEVELS * count);
+        let of = |layer: usize| {
+            let start = if layer == 0 { 0 } else { ends[layer - 1] };
+            order[start as usize..ends[level * count + layer] as usize].to_vec()
+        };
+        (0..count).map(of).collect()
+    }
+
+    #[test]
+    fn a_level_of_detail_has_the_limbs_on_which_its_leaves_hang_and_those_that_carry_them() {
+        for shape in ["fern", "spruce"] {
+            let limbs = limbs_of(&weald::grow::ifs::shapes::find(shape).expect("built in").ifs());
+            let mut counts = Vec::new();
+            for level in 0..LEVELS {
+                let has: std::collections::HashSet<u32> =
+                    layers_of(&limbs, level).into_iter().flatten().collect();
+                // A list of a level may pass into the next one.
+                for corner in
+                    limbs.triangles_of([level, (level + 1).min(LEVELS - 1)].map(|level| level as u32))
+                {
+                    let mut on = Some(limbs.corners[corner as usize].limb)
+                        .filter(|&limb| (limb as usize) < limbs.limbs.len());
+                    while let Some(limb) = on {
+                        assert!(has.contains(&limb), "limb {limb} of level {level} of {shape}");
+                        on = limbs.limbs[limb as usize].parent;
+                    }
+                }
+                counts.push(has.len());
+            }
+            assert!(counts.is_sorted_by(|a, b| a >= b) && counts[2] < counts[0], "{shape}: {counts:?}");
+        }
     }
 
     #[test]
