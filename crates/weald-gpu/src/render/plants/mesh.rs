@@ -163,9 +163,9 @@ mod tests {
     #[test]
     fn layers_hold_every_limb_once_and_each_on_the_layer_before() {
         let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
-        let limbs = limbs_of(&ifs).limbs;
+        let of_fern = limbs_of(&ifs);
+        let (limbs, layers) = (&of_fern.limbs, layers_of(&of_fern, 0));
         let mut layer_of = vec![usize::MAX; limbs.len()];
-        let layers = layers_of(&limbs_of(&ifs), 0);
         for (layer, numbers) in layers.iter().enumerate() {
             for &limb in numbers {
                 let before = limbs[limb as usize].parent.map(|parent| layer_of[parent as usize]);
