@@ -47,7 +47,7 @@ fn summed(thread: u32, value: u32) -> u32 {
 // The list of a set that may be drawn, as `list_of` has it, unless ground hides it.
 fn chosen_list(instance: Instance) -> u32 {
     let root = grass_root(instance.place);
-    var chosen = list_of(instance.tuft, root);
+    var chosen = list_of(instance, root);
     let searches = looks_for_ground(chosen);
     var look = 0u;
     loop {
@@ -79,7 +79,7 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
         // On to the next set that may be drawn, whose ground is looked up then: software would look it up for all.
         loop {
             instance = unpack(sets[number]);
-            is_wanted = may_be && may_be_drawn(instance.tuft, instance.place);
+            is_wanted = may_be && may_be_drawn(instance);
             if is_wanted || !may_be || number + 1u >= end {
                 break;
             }

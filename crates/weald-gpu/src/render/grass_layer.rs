@@ -230,7 +230,11 @@ impl Seeds {
         let stores = Stores::new(gpu, u64::from(count), &choice, corners.len())?;
         crate::transfer::write(gpu, &stores.corners.buffer, bytemuck::cast_slice(&corners))?;
         crate::transfer::write(gpu, &stores.sets.buffer, bytemuck::cast_slice(&sets))?;
-        crate::transfer::write(gpu, &stores.runs.buffer, bytemuck::cast_slice(&runs::bounds(&sets)))?;
+        crate::transfer::write(
+            gpu,
+            &stores.runs.buffer,
+            bytemuck::cast_slice(&runs::bounds(&sets, &meadow.species)),
+        )?;
         Ok(Some(stores.bound(gpu, &self.grasses, count, layouts)?))
     }
 }

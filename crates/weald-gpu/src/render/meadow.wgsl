@@ -22,9 +22,6 @@ const SINKING = 0.25;
 // Share of a list's farthest distance at which its rows begin to slide.
 const SLIDE = 0.6;
 
-// A ball around a set's root that holds its blades.
-const AROUND = 2.0;
-
 // Places between the eye and a set at which ground may hide it, and metres above the tips of its blades from which it counts
 // as seen.
 const LOOKS = 5u;
@@ -74,7 +71,7 @@ fn list(distance: f32) -> u32 {
     return select(select(2u, 1u, distance < MIDDLE), 0u, distance < NEAR);
 }
 
-// Where the sets of a run are, and the least of their ranks.
+// Where the sets of a run and all of their blades are, and the least of their ranks.
 struct RunBounds {
     middle: vec2<f32>,
     radius: f32,
@@ -103,19 +100,25 @@ fn distance_along_ground(place: vec2<f32>) -> f32 {
 }
 
 // Whether a set may be drawn, whatever the height of the ground there, which is not looked up for all others.
-fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
-    return may_be_in_sight(place, AROUND) && height_share(rank_of(tuft), distance_along_ground(place)) > 0.0;
+fn may_be_drawn(instance: Instance) -> bool {
+    let stands = height_share(rank_of(instance.tuft), distance_along_ground(instance.place)) > 0.0;
+    return stands && may_be_in_sight(instance.place, reach_of_blades(instance.species));
 }
 
 // Whether any set of a run may be.
 fn may_any_be_drawn(run: RunBounds) -> bool {
     let nearest = max(distance_along_ground(run.middle) - run.radius, 0.0);
-    return may_be_in_sight(run.middle, AROUND + run.radius) && height_share(run.rank, nearest) > 0.0;
+    return may_be_in_sight(run.middle, run.radius) && height_share(run.rank, nearest) > 0.0;
 }
 
 // Metres above its root that no blade of a species exceeds, nor lies aside of it.
 fn tallest(species: u32) -> f32 {
     return row_of(species, 0u).w * max(row_of(species, 6u).w, 1.0) + row_of(species, 2u).z;
+}
+
+// Radius of a ball around the root of a set that holds its blades, wherever they sway.
+fn reach_of_blades(species: u32) -> f32 {
+    return tallest(species) + SPARE;
 }
 
 // At how many places on the way to a set of a list ground is looked at that may hide it.
@@ -133,10 +136,10 @@ fn is_below_ground(look: u32, species: u32, root: vec3<f32>) -> bool {
 }
 
 // The list in which a set is drawn whose root is there; as many as there are where it is not.
-fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
+fn list_of(instance: Instance, root: vec3<f32>) -> u32 {
     let distance = length(root - frame.moment.yzw);
-    let stands = height_share(rank_of(tuft), distance) > 0.0;
-    let seen = choice.culled == 0u || is_in_sight(root - frame.eye.xyz, AROUND);
+    let stands = height_share(rank_of(instance.tuft), distance) > 0.0;
+    let seen = choice.culled == 0u || is_in_sight(root - frame.eye.xyz, reach_of_blades(instance.species));
     return select(LISTS, list(counted(distance)), stands && seen);
 }
 

@@ -1,7 +1,8 @@
 //! The order of the sets of grass on a device, and the bounds of each run of them: those that are close together, and of
 //! these those that are left out together where fewer stand, lie side by side, so that one look leaves out a whole run.
 
-use weald::grow::grass::{Instance, Packed};
+use weald::grow::grass::choice::reach_of_blades;
+use weald::grow::grass::{Instance, Packed, Species};
 
 /// Sets of a run, from which one thread chooses, as `meadow.wgsl` has them.
 pub(super) const RUN: u32 = 16;
@@ -23,29 +24,31 @@ fn key(set: &Packed) -> ([i32; 2], u32) {
     ([south, east].map(|at| (at / SQUARE).floor() as i32), tuft.rank().to_bits())
 }
 
-/// For each run the middle of its sets, how far they are from it, and the least of their ranks.
-pub(super) fn bounds(sets: &[Packed]) -> Vec<[f32; 4]> {
-    sets.chunks(RUN as usize).map(bounds_of_run).collect()
+/// For each run the middle of its sets, how far their blades reach from it at most, and the least of their ranks.
+pub(super) fn bounds(sets: &[Packed], kinds: &[Species]) -> Vec<[f32; 4]> {
+    sets.chunks(RUN as usize).map(|run| bounds_of_run(run, kinds)).collect()
 }
 
-fn bounds_of_run(sets: &[Packed]) -> [f32; 4] {
+fn bounds_of_run(sets: &[Packed], kinds: &[Species]) -> [f32; 4] {
     let (mut low, mut high, mut rank) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], f32::INFINITY);
+    let mut reach = 0.0_f32;
     for set in sets {
-        let Instance { place, tuft, .. } = Instance::unpack(*set);
+        let Instance { place, tuft, species } = Instance::unpack(*set);
+        reach = reach.max(reach_of_blades(&kinds[species as usize]));
         low = [0, 1].map(|axis| low[axis].min(place[axis]));
         high = [0, 1].map(|axis| high[axis].max(place[axis]));
         rank = rank.min(tuft.rank());
     }
     let [east, south] = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
     // A hundredth more, for what a device rounds otherwise.
-    let radius = 0.505 * (high[0] - low[0]).hypot(high[1] - low[1]) + 0.01;
+    let radius = 0.505 * (high[0] - low[0]).hypot(high[1] - low[1]) + 0.01 + reach;
     [east, south, radius, rank]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald::grow::grass::Set;
+    use weald::grow::grass::{SPECIES, Set};
 
     fn sets() -> Vec<Packed> {
         let place = |number: u32| [37, 91].map(|factor| (number * factor % 1000) as f32 * 0.02 - 3.0);
@@ -68,15 +71,17 @@ mod tests {
     #[test]
     fn the_bounds_of_a_run_hold_its_sets_closely() {
         let sets = in_order(sets());
-        let bounds = bounds(&sets);
+        let bounds = bounds(&sets, &SPECIES);
         assert_eq!(bounds.len(), sets.len().div_ceil(RUN as usize));
         for (run, [east, south, radius, rank]) in sets.chunks(RUN as usize).zip(&bounds) {
             for set in run {
-                let Instance { place, tuft, .. } = Instance::unpack(*set);
-                assert!((place[0] - east).hypot(place[1] - south) <= *radius && tuft.rank() >= *rank);
+                let Instance { place, tuft, species } = Instance::unpack(*set);
+                let reach = reach_of_blades(&SPECIES[species as usize]);
+                let away = (place[0] - east).hypot(place[1] - south);
+                assert!(away + reach <= *radius && tuft.rank() >= *rank);
             }
         }
         let mean = bounds.iter().map(|bounds| bounds[2]).sum::<f32>() / bounds.len() as f32;
-        assert!(mean < 3.0, "{mean} m");
+        assert!(mean < 4.0, "{mean} m");
     }
 }

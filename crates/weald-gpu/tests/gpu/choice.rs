@@ -47,7 +47,7 @@ fn by_the_cpu(
         let list = |[x, y, z]: [f32; 3]| {
             let root = [east + x, -south + y, up + z];
             let ground = |[east, north]: [f32; 2]| scene.bed_at([east, -north].map(f64::from));
-            let list = choice.list_of(&sight, &tuft, root)?;
+            let list = choice.list_of(&sight, (species, &tuft), root)?;
             (!choice.is_hidden(camera.eye, (species, root), ground)).then_some(list)
         };
         let found = list([0.0; 3]);

@@ -49,9 +49,6 @@ const PIXEL: f32 = 1e-3;
 /// Most times as far away as they are blades count: those of a small picture bend too.
 const COARSEST: f32 = 2.0;
 
-/// A ball around a set's root in metres that holds its blades.
-pub const AROUND: f32 = 2.0;
-
 /// Places between the eye and a set at which ground may hide it.
 const LOOKS: u16 = 5;
 
@@ -100,10 +97,15 @@ impl Choice {
     }
 
     /// The level of detail, and with it the list, in which a set is drawn whose root is there; `None` where it is not.
-    pub fn list_of(&self, sight: &ViewCone, tuft: &Set, root: [f32; 3]) -> Option<usize> {
+    pub fn list_of(
+        &self,
+        sight: &ViewCone,
+        (species, tuft): (&Species, &Set),
+        root: [f32; 3],
+    ) -> Option<usize> {
         let distance = length(minus(root, sight.detail_from));
         let stands = self.height_share(tuft.rank(), distance, sight.coarser) > 0.0;
-        let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
+        let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), reach_of_blades(species));
         (stands && seen).then(|| self.list(sight.coarser * distance))
     }
 
@@ -161,6 +163,11 @@ fn tallest(species: &Species) -> f32 {
     species.height * species.stalk.max(1.0) + species.spread
 }
 
+/// Radius in metres of a ball around the root of a set that holds its blades, wherever they sway.
+pub fn reach_of_blades(species: &Species) -> f32 {
+    tallest(species) + SPARE
+}
+
 /// How many of the sets stand at a distance, where pixels are so many times as large ([`coarser`]).
 pub fn share(distance: f32, coarser: f32) -> f32 {
     let thinned = libm::powf(WHOLE / (coarser * distance).max(WHOLE), THINNING);
@@ -191,6 +198,9 @@ fn length(v: [f32; 3]) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::blade::{BLADES, Blade};
+    use super::super::growth::Bend;
+    use super::super::species::SPECIES;
     use super::*;
 
     const AHEAD: ViewCone = ViewCone {
@@ -241,19 +251,47 @@ mod tests {
     #[test]
     fn what_lies_behind_and_beside_is_left_out_and_all_else_is_not() {
         let tuft = Set { soil: 1.0, light: 1.0, level: 4.0, cut: 1.0, trodden: 0.0, seed: 1 };
+        let tall = Species { height: 1.2, stalk: 1.0, spread: 0.1, ..SPECIES[0].clone() };
+        let short = Species { height: 0.3, ..tall.clone() };
         let (picture, all) = (Choice::of_a_picture(), Choice::of_all(4.0));
         let places = [([0.0, 5.0, 0.0], true), ([4.0, 5.0, 0.0], true), ([0.0, -3.0, 0.0], false)];
         let beside = [([9.0, 5.0, 0.0], false), ([0.0, 5.0, 6.0], false), ([0.0, -1.0, 0.0], true)];
         for (root, seen) in places.into_iter().chain(beside) {
-            assert_eq!(picture.list_of(&AHEAD, &tuft, root).is_some(), seen, "{root:?}");
-            assert_eq!(all.list_of(&AHEAD, &tuft, root), Some(0), "{root:?}");
+            assert_eq!(picture.list_of(&AHEAD, (&tall, &tuft), root).is_some(), seen, "{root:?}");
+            assert_eq!(all.list_of(&AHEAD, (&tall, &tuft), root), Some(0), "{root:?}");
         }
+        assert_eq!(
+            picture.list_of(&AHEAD, (&short, &tuft), [0.0, -1.0, 0.0]),
+            None,
+            "it does not reach the eye"
+        );
         assert_eq!((all.rows[0], Choice::of_all(1.0).rows[0]), (20, 5), "two vertices a row: 40 at level 4");
     }
 
     #[test]
+    fn a_ball_around_the_root_of_a_set_holds_its_blades_wherever_they_sway() {
+        for species in &SPECIES {
+            let mut farthest = 0.0_f32;
+            for seed in 0..200 {
+                let [soil, light] = [seed % 11, seed / 11 % 11].map(|tenths| tenths as f32 / 10.0);
+                let tuft = Set { soil, light, level: 4.0, cut: 1.0, trodden: 0.0, seed };
+                for number in 0..BLADES {
+                    let blade = Blade::of(species, &tuft, number, Bend::Total);
+                    let push = [seed as f32 * 0.01 - 1.0, 0.4];
+                    for vertex in blade.vertices(rows(4.0)) {
+                        let places = [vertex.place, blade.swayed(&vertex, push).place];
+                        farthest = places.map(length).into_iter().fold(farthest, f32::max);
+                    }
+                }
+            }
+            assert!(farthest <= reach_of_blades(species), "{}: {farthest} m", species.name);
+            assert!(3.0 * farthest > reach_of_blades(species), "{}: {farthest} m is far less", species.name);
+        }
+    }
+
+    #[test]
     fn a_ridge_hides_what_lies_behind_it_but_not_what_looks_over_it_nor_what_is_before_it() {
-        let ryegrass = &super::super::species::SPECIES[0];
+        let ryegrass = &SPECIES[0];
         let eye = [0.0, 0.0, 1.5];
         // 3 m high from 20 m to 30 m ahead, on land that ends at 50 m.
         let ground = |[_, north]: [f32; 2]| {
