@@ -146,6 +146,11 @@ pub(super) struct InSight {
 }
 
 impl InSight {
+    /// Whether the camera is above the base of clouds.
+    pub(super) fn is_over_clouds(self) -> bool {
+        self.is_over_clouds
+    }
+
     /// Of a camera that is so high above all ground, for pixels of such an angle, where clouds begin at a height.
     pub(super) fn of(camera: &Camera, above: f32, pixel_angle: f32, cloud_base: Option<f32>) -> Self {
         let Camera { forward, right, up, half, .. } = camera;
@@ -216,9 +221,7 @@ impl Ground {
     /// Draws the light of clouds where they are in sight; nothing where there are none.
     pub(super) fn draw_clouds(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
         if let Some([clouds, _]) = &self.clouds {
-            pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
-            pass.set_pipeline(clouds);
-            pass.draw(0..3, 0..1);
+            draw_whole(pass, clouds, depths);
         }
     }
 
@@ -229,9 +232,7 @@ impl Ground {
 
     /// Draws the kind of each pixel.
     pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &[BindGroup; 3]) {
-        pass.set_bind_group(DEPTHS_GROUP, &depths[WITH_LIGHT], &[]);
-        pass.set_pipeline(&self.kind);
-        pass.draw(0..3, 0..1);
+        draw_whole(pass, &self.kind, &depths[WITH_LIGHT]);
     }
 
     /// Draws the light of every pixel that has a depth.
@@ -271,6 +272,13 @@ impl Ground {
             pass.draw(0..3, 0..1);
         }
     }
+}
+
+/// Draws all of a picture by a pipeline and what it has of the picture.
+pub(super) fn draw_whole(pass: &mut RenderPass<'_>, pipeline: &RenderPipeline, group: &BindGroup) {
+    pass.set_bind_group(DEPTHS_GROUP, group, &[]);
+    pass.set_pipeline(pipeline);
+    pass.draw(0..3, 0..1);
 }
 
 #[cfg(test)]

@@ -198,14 +198,23 @@ impl Parts<'_> {
         })
     }
 
+    /// The light of clouds, that of the picture before where it is known.
+    pub(super) fn clouds_before(&self, layout: &PipelineLayout) -> RenderPipeline {
+        self.clouds_by("clouds_before_fragment", layout)
+    }
+
     /// The light of clouds, of one sample.
     pub(super) fn clouds(&self) -> RenderPipeline {
+        self.clouds_by("clouds_fragment", self.layouts[0])
+    }
+
+    fn clouds_by(&self, fragment: &str, layout: &PipelineLayout) -> RenderPipeline {
         self.pipeline(&Drawn {
-            key: format!("clouds {}", self.samples),
-            layout: self.layouts[0],
+            key: format!("{fragment} {}", self.samples),
+            layout,
             samples: 1,
             vertex: ("whole_vertex", &[]),
-            fragment: Some("clouds_fragment"),
+            fragment: Some(fragment),
             constants: &[("SAMPLED", f64::from(self.samples > 1))],
             target: Some(ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL }),
             depth: None,

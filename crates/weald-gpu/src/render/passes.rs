@@ -4,10 +4,9 @@ use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    ComputePipeline, ComputePipelineDescriptor, FragmentState, MultisampleState, PipelineCompilationOptions,
-    PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModule, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState,
-    VertexStepMode,
+    ComputePipeline, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPipeline, RenderPipelineDescriptor,
+    ShaderModule, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
 use super::casters::Casters;
@@ -18,7 +17,7 @@ use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::patch_heights;
 use super::picking;
 use super::plants::Plants;
-use super::reprojection::{LightBefore, ReprojectionPipeline, reprojection_layout};
+use super::reprojection::{LightBefore, ReprojectionLayouts, ReprojectionPipelines};
 use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
 use super::timing::{Timer, Timestamp};
@@ -26,7 +25,7 @@ use crate::gpu::Gpu;
 use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 13] = [
+const SHADERS: [&str; 14] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
@@ -39,6 +38,7 @@ const SHADERS: [&str; 13] = [
     include_str!("reprojection.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),
+    include_str!("clouds_before.wgsl"),
     include_str!("pick.wgsl"),
 ];
 
@@ -65,7 +65,7 @@ pub(super) struct Passes {
     pub(super) depths: [BindGroupLayout; 3],
     pub(super) casters: Casters,
     /// What takes light from the picture before; `None` where pixels have several samples.
-    pub(super) reprojection: Option<ReprojectionPipeline>,
+    pub(super) reprojection: Option<ReprojectionPipelines>,
     module: ShaderModule,
     picks: (PipelineLayout, BindGroupLayout),
     /// What works out the heights of patches.
@@ -101,7 +101,7 @@ struct Maker<'a> {
     casters: PipelineLayout,
     picks: (PipelineLayout, BindGroupLayout),
     /// Of what takes light from the picture before.
-    reprojection: (PipelineLayout, BindGroupLayout),
+    reprojection: ([PipelineLayout; 2], ReprojectionLayouts),
     samples: u32,
     has: SceneParts,
     has_lawn: bool,
@@ -136,7 +136,7 @@ impl Passes {
             };
             let depths = ground::depths_layouts(gpu, samples);
             let picks = picking::layout(gpu, samples);
-            let before = reprojection_layout(gpu);
+            let before = ReprojectionLayouts::new(gpu, samples);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
@@ -147,7 +147,13 @@ impl Passes {
                     .map(|depths| whole(&[Some(&frame.layout), Some(&maps.layout), Some(depths)])),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade), drawing]),
                 picks: (whole(&[Some(&frame.layout), Some(&maps.layout), Some(&picks)]), picks),
-                reprojection: (whole(&[Some(&frame.layout), None, Some(&before)]), before),
+                reprojection: (
+                    [
+                        whole(&[Some(&frame.layout), None, Some(&before.ground)]),
+                        whole(&[Some(&frame.layout), Some(&maps.layout), Some(&before.clouds)]),
+                    ],
+                    before,
+                ),
                 samples,
                 has: SceneParts::of(scene),
                 has_lawn,
@@ -182,13 +188,14 @@ impl Passes {
             has: maker.has,
             has_lawn: maker.has_lawn,
         };
-        let (before, layout) = &maker.reprojection;
+        let ([ground, clouds], before) = &maker.reprojection;
         Ok(Self {
             ground: Ground::new(parts)?,
             depths,
-            reprojection: (maker.samples == 1).then(|| ReprojectionPipeline {
-                pipeline: parts.reprojected(before),
-                layout: layout.clone(),
+            reprojection: (maker.samples == 1).then(|| ReprojectionPipelines {
+                ground: parts.reprojected(ground),
+                clouds: maker.has.clouds.then(|| parts.clouds_before(clouds)),
+                layouts: before.clone(),
             }),
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
@@ -213,23 +220,8 @@ impl Passes {
     /// The pipeline that says what is seen at places of a picture, and what it is bound to.
     pub(super) fn picks(&self, gpu: &Gpu) -> Result<(ComputePipeline, BindGroupLayout), Error> {
         let (layout, bound) = &self.picks;
-        let constants = [("SAMPLED", f64::from(self.samples > 1))];
-        let make = || {
-            gpu.context.device.create_compute_pipeline(&ComputePipelineDescriptor {
-                label: Some("pick"),
-                layout: Some(layout),
-                module: &self.module,
-                entry_point: Some("pick"),
-                compilation_options: PipelineCompilationOptions {
-                    constants: &constants,
-                    ..PipelineCompilationOptions::default()
-                },
-                cache: None,
-            })
-        };
-        let key = (self.module.clone(), format!("pick {}", self.samples));
         gpu.context.attempt_to_compile("making the pipeline of picks", || {
-            Ok((gpu.context.known.computing(key, make), bound.clone()))
+            Ok((picking::pipeline(&gpu.context, (&self.module, layout), self.samples), bound.clone()))
         })
     }
 
@@ -278,10 +270,8 @@ impl Passes {
         }
         drop(pass);
         drawing.before.keep(encoder, targets);
-        if !drawing.bare && self.ground.has_clouds(drawing.in_sight) {
-            let mut pass = targets.cloud_pass(encoder);
-            bind(&mut pass, groups);
-            self.ground.draw_clouds(&mut pass, &depths[0]);
+        if !drawing.bare {
+            self.draw_clouds(encoder, (targets, depths), groups, &drawing);
         }
         let mut pass = targets.backdrop_pass(encoder);
         bind(&mut pass, groups);
@@ -290,6 +280,30 @@ impl Passes {
         }
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Behind);
+        }
+    }
+
+    /// Draws the light of clouds, where they are in sight, and keeps it for the next picture of a window.
+    fn draw_clouds(
+        &self,
+        encoder: &mut CommandEncoder,
+        (targets, depths): (&Targets, &[BindGroup; 3]),
+        groups: [&BindGroup; 2],
+        &Drawing { in_sight, before, .. }: &Drawing<'_>,
+    ) {
+        let is_seen = self.ground.has_clouds(in_sight);
+        if is_seen || before.is_kept() {
+            let mut pass = targets.cloud_pass(encoder);
+            bind(&mut pass, groups);
+            // Of clouds around the eye each has another distance.
+            let takes = before.clouds(self.reprojection.as_ref()).filter(|_| !in_sight.is_over_clouds());
+            match takes {
+                _ if !is_seen => {}
+                Some((pipeline, group)) => ground::draw_whole(&mut pass, pipeline, group),
+                None => self.ground.draw_clouds(&mut pass, &depths[0]),
+            }
+            drop(pass);
+            before.keep_clouds(encoder, targets);
         }
     }
 

@@ -5,7 +5,8 @@ use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, CommandEncoder,
-    ComputePassDescriptor, ComputePipeline, ShaderStages,
+    ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
+    PipelineLayout, ShaderModule, ShaderStages,
 };
 
 use super::ground::depths_entry;
@@ -13,6 +14,7 @@ use super::returning::Returning;
 use super::targets::Targets;
 use super::upload::Upload;
 use crate::gpu::Gpu;
+use crate::gpu::context::Context;
 use crate::memory::Store;
 
 /// Most places that are asked with one picture; more wait for the next.
@@ -202,4 +204,27 @@ fn bind(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets, stores: [&Store;
     ];
     let description = BindGroupDescriptor { label: Some("picks"), layout, entries: &entries };
     gpu.context.device.create_bind_group(&description)
+}
+
+/// The pipeline that says what is seen at places of a picture of so many samples, by a module of all shaders of a picture.
+pub(super) fn pipeline(
+    context: &Context,
+    (module, layout): (&ShaderModule, &PipelineLayout),
+    samples: u32,
+) -> ComputePipeline {
+    let constants = [("SAMPLED", f64::from(samples > 1))];
+    let make = || {
+        context.device.create_compute_pipeline(&ComputePipelineDescriptor {
+            label: Some("pick"),
+            layout: Some(layout),
+            module,
+            entry_point: Some("pick"),
+            compilation_options: PipelineCompilationOptions {
+                constants: &constants,
+                ..PipelineCompilationOptions::default()
+            },
+            cache: None,
+        })
+    };
+    context.known.computing((module.clone(), format!("pick {samples}")), make)
 }

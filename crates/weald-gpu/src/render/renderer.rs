@@ -289,8 +289,8 @@ impl Renderer {
         let now = Moment { camera: *shot.camera, changes: self.changes, seconds: self.seconds };
         let mut view = onto.reprojection.lock().unwrap_or_else(PoisonError::into_inner);
         let mut before = None;
-        if let Some(pipeline) = self.passes.reprojection.as_ref().filter(|_| !shot.waits) {
-            before = view.begin(&self.gpu, (&pipeline.layout, &onto.targets), &now)?;
+        if let Some(pipelines) = self.passes.reprojection.as_ref().filter(|_| !shot.waits) {
+            before = view.begin(&self.gpu, (&pipelines.layouts, &onto.targets), &now)?;
         }
         let (wanted, in_sight) = self.aim((onto, shot.waits), (shot.camera, before), encoder)?;
         let into = &mut Upload { gpu: &self.gpu, encoder };

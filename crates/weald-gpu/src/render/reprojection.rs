@@ -1,14 +1,16 @@
-//! Light of the ground that a window's picture before has, taken for the next one: reverse reprojection (Nehab, Sander,
+//! Light of ground and clouds that a window's picture before has, taken for the next one: reverse reprojection (Nehab, Sander,
 //! Lawrence, Tatarchuk and Isidoro 2007, "Accelerating Real-Time Shading with Reverse Reprojection Caching").
 //!
 //! The light of ground depends on the eye by haze, detail and gloss alone, which change slowly; the point of a pixel is known
-//! from its depth, and so is where the picture before had it. From there its light is taken, between four pixels, unless its
-//! depth there was another one, something grew before it, or the light is older than some pictures. One block of pixels in
-//! four is lit anew by turns, so that no light is older than that, and a camera that has stood still for that long has the
-//! picture that is lit anew as a whole ([`super::screen::Screen::is_settled`]).
+//! from its depth, and so is where the picture before had it. From there its light is taken, between four pixels, unless the
+//! depth of the ground there was another one or the light is older than some pictures; where something grew before it, from the
+//! nearest ground beside it of that depth. One block of pixels in four is lit anew by turns, so that no light is older than
+//! that, and a camera that has stood still for that long has the picture that is lit anew as a whole
+//! ([`super::screen::Screen::is_settled`]). Clouds are taken from where their base was seen (`clouds_before.wgsl`).
 //!
-//! What differs from the source: due pixels are blocks by turns, not random ones, because devices light blocks; and water that
-//! is close by is always lit anew, because it flows. Pictures that come back, and films, are lit anew as a whole: they are the
+//! What differs from the source: due pixels are blocks by turns, not random ones, because devices light blocks; ground that
+//! something hid is not always lit anew, because among blades nearly all of it comes and goes; and water that is close by is
+//! always, because it flows. Pictures that come back, and films, are lit anew as a whole: they are the
 //! same whatever was drawn before.
 
 use weald::Error;
@@ -20,14 +22,15 @@ use wgpu::{
 };
 
 use super::frame::PictureBefore;
-use super::ground::{DEPTHS_BINDING, DEPTHS_GROUP, FRONT_BINDING, depths_entry};
-use super::targets::{DEPTH, LIGHT, Targets};
+use super::ground::{DEPTHS_BINDING, FRONT_BINDING, depths_entry, draw_whole};
+use super::targets::Targets;
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;
 
-/// Bindings of the light and the depths of the picture before.
+/// Bindings of the light, the depths and the clouds of the picture before.
 const LIGHT_BEFORE: u32 = 6;
 const DEPTHS_BEFORE: u32 = 7;
+const CLOUDS_BEFORE: u32 = 9;
 
 /// Turns in which all pixels are lit anew.
 const TURNS: u32 = 4;
@@ -46,9 +49,18 @@ pub(super) struct Moment {
 
 /// What draws the light of the picture before.
 #[derive(Debug)]
-pub(super) struct ReprojectionPipeline {
-    pub(super) pipeline: RenderPipeline,
-    pub(super) layout: BindGroupLayout,
+pub(super) struct ReprojectionPipelines {
+    pub(super) ground: RenderPipeline,
+    /// `None` where there are none.
+    pub(super) clouds: Option<RenderPipeline>,
+    pub(super) layouts: ReprojectionLayouts,
+}
+
+/// The layouts of the depths of a picture with what is kept of the one before: of its ground, and of its clouds.
+#[derive(Clone, Debug)]
+pub(super) struct ReprojectionLayouts {
+    pub(super) ground: BindGroupLayout,
+    pub(super) clouds: BindGroupLayout,
 }
 
 /// What a view keeps of its last picture.
@@ -65,25 +77,33 @@ pub(super) struct Reprojection {
 struct Kept {
     light: Canvas,
     depth: Canvas,
-    group: BindGroup,
+    clouds: Canvas,
+    ground_group: BindGroup,
+    clouds_group: BindGroup,
 }
 
-/// The layout of the depths of a picture and of what is kept of the one before.
-pub(super) fn reprojection_layout(gpu: &Gpu) -> BindGroupLayout {
-    let depths = depths_entry(1, ShaderStages::FRAGMENT);
-    let ty = BindingType::Texture {
-        sample_type: TextureSampleType::Float { filterable: false },
-        view_dimension: TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let entries = [
-        depths,
-        BindGroupLayoutEntry { binding: FRONT_BINDING, ..depths },
-        BindGroupLayoutEntry { binding: LIGHT_BEFORE, ty, ..depths },
-        BindGroupLayoutEntry { binding: DEPTHS_BEFORE, ..depths },
-    ];
-    let description = BindGroupLayoutDescriptor { label: Some("the picture before"), entries: &entries };
-    gpu.context.device.create_bind_group_layout(&description)
+impl ReprojectionLayouts {
+    /// For pictures of so many samples, of which those of several take nothing.
+    pub(super) fn new(gpu: &Gpu, samples: u32) -> Self {
+        let depths = depths_entry(samples, ShaderStages::FRAGMENT);
+        let front = BindGroupLayoutEntry { binding: FRONT_BINDING, ..depths };
+        let ty = BindingType::Texture {
+            sample_type: TextureSampleType::Float { filterable: false },
+            view_dimension: TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let light = BindGroupLayoutEntry { binding: LIGHT_BEFORE, ty, ..depths };
+        let depths_before = BindGroupLayoutEntry { binding: DEPTHS_BEFORE, ..depths };
+        let clouds = BindGroupLayoutEntry { binding: CLOUDS_BEFORE, ty, ..depths };
+        let layout = |entries: &[_]| {
+            let description = BindGroupLayoutDescriptor { label: Some("the picture before"), entries };
+            gpu.context.device.create_bind_group_layout(&description)
+        };
+        Self {
+            ground: layout(&[depths, front, light, depths_before]),
+            clouds: layout(&[depths, front, clouds]),
+        }
+    }
 }
 
 impl Reprojection {
@@ -94,11 +114,11 @@ impl Reprojection {
     pub(super) fn begin(
         &mut self,
         gpu: &Gpu,
-        (layout, targets): (&BindGroupLayout, &Targets),
+        (layouts, targets): (&ReprojectionLayouts, &Targets),
         now: &Moment,
     ) -> Result<Option<PictureBefore>, Error> {
         if self.kept.is_none() {
-            self.kept = Some(Kept::new(gpu, layout, targets)?);
+            self.kept = Some(Kept::new(gpu, layouts, targets)?);
         }
         self.turn = (self.turn + 1) % TURNS;
         // Where this picture is not drawn to its end, the next one is lit anew.
@@ -148,30 +168,56 @@ impl<'a> LightBefore<'a> {
         self,
         encoder: &mut CommandEncoder,
         (targets, frame): (&Targets, &BindGroup),
-        drawn: Option<&ReprojectionPipeline>,
+        drawn: Option<&ReprojectionPipelines>,
     ) -> bool {
         let Self::Taken(Reprojection { kept: Some(kept), .. }) = self else { return false };
         let Some(drawn) = drawn else { return false };
         let mut pass = targets.reprojection_pass(encoder);
         pass.set_bind_group(0, frame, &[]);
-        pass.set_bind_group(DEPTHS_GROUP, &kept.group, &[]);
-        pass.set_pipeline(&drawn.pipeline);
-        pass.draw(0..3, 0..1);
+        draw_whole(&mut pass, &drawn.ground, &kept.ground_group);
         true
     }
 
-    /// Keeps the light of the ground and the depths for the next picture, once they are drawn.
+    /// What draws clouds with those of the picture before, where it may have some.
+    pub(super) fn clouds(
+        self,
+        drawn: Option<&'a ReprojectionPipelines>,
+    ) -> Option<(&'a RenderPipeline, &'a BindGroup)> {
+        let Self::Taken(Reprojection { kept: Some(kept), .. }) = self else { return None };
+        Some((drawn?.clouds.as_ref()?, &kept.clouds_group))
+    }
+
+    /// Whether the picture keeps something for the next one.
+    pub(super) fn is_kept(self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    /// Keeps the light of the ground and its depths for the next picture, once they are drawn.
     pub(super) fn keep(self, encoder: &mut CommandEncoder, targets: &Targets) {
-        let (Self::Kept(Reprojection { kept: Some(kept), .. })
-        | Self::Taken(Reprojection { kept: Some(kept), .. })) = self
-        else {
-            return;
-        };
-        for (from, into) in [(&targets.light, &kept.light), (&targets.depth, &kept.depth)] {
-            let (from, into, size) = (&from.texture, &into.texture, from.texture.size());
-            encoder.copy_texture_to_texture(from.as_image_copy(), into.as_image_copy(), size);
+        if let Some(kept) = self.kept() {
+            copy(encoder, &targets.light, &kept.light);
+            copy(encoder, &targets.ground, &kept.depth);
         }
     }
+
+    /// Keeps the light of clouds, once it is drawn.
+    pub(super) fn keep_clouds(self, encoder: &mut CommandEncoder, targets: &Targets) {
+        if let Some(kept) = self.kept() {
+            copy(encoder, &targets.clouds, &kept.clouds);
+        }
+    }
+
+    fn kept(self) -> Option<&'a Kept> {
+        match self {
+            Self::None => None,
+            Self::Kept(view) | Self::Taken(view) => view.kept.as_ref(),
+        }
+    }
+}
+
+fn copy(encoder: &mut CommandEncoder, from: &Canvas, into: &Canvas) {
+    let (from, into, size) = (&from.texture, &into.texture, from.texture.size());
+    encoder.copy_texture_to_texture(from.as_image_copy(), into.as_image_copy(), size);
 }
 
 impl Moment {
@@ -182,24 +228,30 @@ impl Moment {
 }
 
 impl Kept {
-    fn new(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> Result<Self, Error> {
-        let size = [targets.light.texture.width(), targets.light.texture.height()];
+    fn new(gpu: &Gpu, layouts: &ReprojectionLayouts, targets: &Targets) -> Result<Self, Error> {
         let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-        let light = Canvas::new(gpu, "light of the picture before", Shape::flat(size, LIGHT, usage))?;
-        let depth = Canvas::new(gpu, "depths of the picture before", Shape::flat(size, DEPTH, usage))?;
-        let bound = [
-            (DEPTHS_BINDING, &targets.ground),
-            (FRONT_BINDING, &targets.depth),
-            (LIGHT_BEFORE, &light),
-            (DEPTHS_BEFORE, &depth),
-        ];
-        let entries = bound.map(|(binding, canvas)| BindGroupEntry {
-            binding,
-            resource: BindingResource::TextureView(&canvas.view),
-        });
-        let description =
-            BindGroupDescriptor { label: Some("the picture before"), layout, entries: &entries };
-        let group = gpu.context.device.create_bind_group(&description);
-        Ok(Self { light, depth, group })
+        let like = |what, canvas: &Canvas| {
+            let size = [canvas.texture.width(), canvas.texture.height()];
+            Canvas::new(gpu, what, Shape::flat(size, canvas.texture.format(), usage))
+        };
+        let light = like("light of the picture before", &targets.light)?;
+        let depth = like("depths of the ground in the picture before", &targets.ground)?;
+        let clouds = like("clouds of the picture before", &targets.clouds)?;
+        let group = |layout, before: &[(u32, &Canvas)]| {
+            let now = [(DEPTHS_BINDING, &targets.ground), (FRONT_BINDING, &targets.depth)];
+            let bound = now.iter().chain(before);
+            let entries: Vec<_> = bound
+                .map(|&(binding, canvas)| BindGroupEntry {
+                    binding,
+                    resource: BindingResource::TextureView(&canvas.view),
+                })
+                .collect();
+            let description =
+                BindGroupDescriptor { label: Some("the picture before"), layout, entries: &entries };
+            gpu.context.device.create_bind_group(&description)
+        };
+        let ground_group = group(&layouts.ground, &[(LIGHT_BEFORE, &light), (DEPTHS_BEFORE, &depth)]);
+        let clouds_group = group(&layouts.clouds, &[(CLOUDS_BEFORE, &clouds)]);
+        Ok(Self { light, depth, clouds, ground_group, clouds_group })
     }
 }

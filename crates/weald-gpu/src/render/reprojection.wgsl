@@ -18,11 +18,15 @@ const BLOCK = 4u;
 // By which share the depth of the same point may differ: between depths it is interpolated, which is exact on planes.
 const SAME_POINT = 0.01;
 
+// The same of a point beside one that was hidden, and how many texels away it may lie.
+const NEAR_POINT = 0.03;
+const AROUND_HIDDEN = 2;
+
 // How far off the middle of a pixel counts as there, in pixels: what is rounded does not blur a camera that stands still.
 const AT_REST = 0.015625;
 
 // By which share a point may be nearer or farther than before: haze and detail go by it.
-const SAME_DISTANCE = 0.03;
+const SAME_DISTANCE = 0.06;
 
 // Least share of the texels around a place that must show ground.
 const SEEN_BEFORE = 0.5;
@@ -64,20 +68,49 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
         let at = clamp(vec2<i32>(start) + aside, vec2<i32>(0), last);
         let light = textureLoad(light_before, at, 0);
         let weights = select(1.0 - share, share, aside == vec2<i32>(1));
-        let weight = select(0.0, weights.x * weights.y, light.w > 0.0);
-        sum += weight * light.xyz;
+        let weight = weights.x * weights.y;
+        let lit = select(0.0, weight, light.w > 0.0);
+        sum += lit * light.xyz;
         depth += weight * textureLoad(depths_before, at, 0);
-        seen += weight;
-        youth = select(youth, min(youth, light.w), weight > 0.02);
+        seen += lit;
+        youth = select(youth, min(youth, light.w), lit > 0.02);
         corner++;
         if corner >= 4 {
             break;
         }
     }
     let is_within = all(place.xy >= vec2<f32>(0.0)) && all(place.xy <= vec2<f32>(last + 1));
-    let is_same = place.z > 0.0 && abs(depth - place.z * seen) <= SAME_POINT * place.z * seen;
-    let is_known = is_within && is_same && seen > SEEN_BEFORE && youth > OLDEST;
+    let is_same = is_within && place.z > 0.0 && abs(depth - place.z) <= SAME_POINT * place.z;
+    if is_same && seen <= SEEN_BEFORE {
+        let near = light_near(vec2<i32>(nearest), place.z);
+        return select(vec4<f32>(0.0), vec4<f32>(near.xyz, near.w - AGE), near.w > OLDEST);
+    }
+    let is_known = is_same && youth > OLDEST;
     return select(vec4<f32>(0.0), vec4<f32>(sum / max(seen, 1e-6), youth - AGE), is_known);
+}
+
+// The light of the ground nearest to a texel that something hid, with its age: where blades sway before ground, or move across
+// it as the eye does, most of it is hidden by turns. None where nothing of the same depth was seen around.
+fn light_near(texel: vec2<i32>, depth: f32) -> vec4<f32> {
+    let last = vec2<i32>(textureDimensions(light_before)) - 1;
+    var found = vec4<f32>(0.0);
+    var step = 0;
+    loop {
+        // Rightward and leftward, then down and up: along a row ground is as far.
+        let away = 1 + step / 4;
+        let side = select(-away, away, (step & 1) == 0);
+        let at = clamp(texel + select(vec2<i32>(0, side), vec2<i32>(side, 0), (step & 2) == 0), vec2<i32>(0), last);
+        let light = textureLoad(light_before, at, 0);
+        let is_near = abs(textureLoad(depths_before, at, 0) - depth) <= NEAR_POINT * depth;
+        if light.w > 0.0 && is_near {
+            found = light;
+        }
+        step++;
+        if step >= 4 * AROUND_HIDDEN || found.w > 0.0 {
+            break;
+        }
+    }
+    return found;
 }
 
 struct LightBefore {

@@ -21,6 +21,9 @@ pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 /// What nothing drew on: no light of a landscape.
 const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 0.0 };
 
+/// What clouds are where none are drawn, as `clouds_before.wgsl` has it.
+const NO_CLOUDS_DRAWN: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: -1.0 };
+
 /// The canvases of a picture.
 #[derive(Debug)]
 pub(super) struct Targets {
@@ -42,15 +45,15 @@ impl Targets {
         let Options { size, samples } = options;
         let attachment = TextureUsages::RENDER_ATTACHMENT;
         let seen = TextureUsages::TEXTURE_BINDING;
-        let depth =
-            Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_SRC) };
+        let copied = TextureUsages::COPY_SRC;
+        let depth = Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | copied) };
         // An attachment as well, as all textures with samples must be.
-        let ground =
-            Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_DST) };
+        let usage = attachment | seen | copied | TextureUsages::COPY_DST;
+        let ground = Shape { samples, ..Shape::flat(size, DEPTH, usage) };
         let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
-        let light = Shape::flat(size, LIGHT, attachment | seen | TextureUsages::COPY_SRC);
-        let clouds = Shape::flat(size.map(|side| side.div_ceil(2)), LIGHT, attachment | seen);
+        let light = Shape::flat(size, LIGHT, attachment | seen | copied);
+        let clouds = Shape::flat(size.map(|side| side.div_ceil(2)), LIGHT, attachment | seen | copied);
         Ok(Self {
             depth: Canvas::new(gpu, "depth", depth)?,
             ground: Canvas::new(gpu, "depth of the ground", ground)?,
@@ -126,7 +129,7 @@ impl Targets {
 
     /// The pass that draws the light of clouds.
     pub(super) fn cloud_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
-        let ops = Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store };
+        let ops = Operations { load: LoadOp::Clear(NO_CLOUDS_DRAWN), store: StoreOp::Store };
         let attachment = RenderPassColorAttachment {
             view: &self.clouds.view,
             depth_slice: None,

@@ -1,0 +1,75 @@
+// Light of clouds that a window's picture before has, taken for the next one, as `reprojection.wgsl` takes that of the ground:
+// from where the point at which a ray meets the base of clouds was seen then. Clouds do not move, and what is above their base
+// lies off by less than a pixel while the eye moves little.
+
+@group(2) @binding(9) var clouds_light_before: texture_2d<f32>;
+
+// What canvases of clouds have as their share of the sky where none were drawn.
+const NO_CLOUDS_DRAWN = -1.0;
+
+// One block in so many is lit anew whatever its turn: what moves across the picture as fast as turns do would never be.
+const ALSO_DUE = 8u;
+
+// By which share of its distance to the base the eye may have moved.
+const SAME_EYE = 0.01;
+
+// Whether a texel is lit anew.
+fn are_clouds_due(position: vec2<f32>) -> bool {
+    let block = vec2<i32>(position) / i32(BLOCK);
+    let camera = bitcast<vec3<u32>>(frame.before_forward.xyz);
+    let random = grain_bits(block.x, block.y, camera.x ^ (camera.y * 3u) ^ (camera.z * 5u));
+    return is_due(position) | (random % ALSO_DUE == 0u);
+}
+
+// Where clouds in a direction were in the picture before, in texels; outside of it where they were not.
+fn clouds_place_before(direction: vec3<f32>) -> vec2<f32> {
+    let rise = scene.cloud_height.x - frame.eye.z;
+    let reach = rise / max(direction.z, 1e-5);
+    let relative = direction * reach + frame.before_eye.xyz;
+    let ahead = dot(relative, frame.before_forward.xyz);
+    let aside = vec2<f32>(dot(relative, frame.before_right.xyz), -dot(relative, frame.before_up.xyz));
+    let half = vec2<f32>(frame.before_right.w, frame.before_up.w);
+    let size = vec2<f32>(textureDimensions(clouds_light_before));
+    let place = (0.5 + 0.5 * aside / (half * max(ahead, 1e-9))) * size;
+    let is_near = length(frame.before_eye.xyz) <= SAME_EYE * rise;
+    return select(vec2<f32>(-9.0), place, is_near & (ahead > 0.0) & (direction.z > 1e-3));
+}
+
+// The clouds that were seen there, between four texels; none drawn where one of them was not.
+fn clouds_seen_before(place: vec2<f32>) -> vec4<f32> {
+    let nearest = round(place - 0.5);
+    let middle = select(place - 0.5, nearest, abs(place - 0.5 - nearest) < vec2<f32>(AT_REST));
+    let start = floor(middle);
+    let share = middle - start;
+    let last = vec2<i32>(textureDimensions(clouds_light_before)) - 1;
+    var sum = vec4<f32>(0.0);
+    var is_drawn = all(middle >= vec2<f32>(0.0)) && all(middle <= vec2<f32>(last));
+    var corner = 0;
+    loop {
+        let aside = vec2<i32>(corner & 1, corner >> 1u);
+        let clouds = textureLoad(clouds_light_before, clamp(vec2<i32>(start) + aside, vec2<i32>(0), last), 0);
+        let weights = select(1.0 - share, share, aside == vec2<i32>(1));
+        let weight = weights.x * weights.y;
+        sum += weight * clouds;
+        is_drawn = is_drawn && (clouds.w >= 0.0 || weight == 0.0);
+        corner++;
+        if corner >= 4 {
+            break;
+        }
+    }
+    return select(vec4<f32>(0.0, 0.0, 0.0, NO_CLOUDS_DRAWN), sum, is_drawn);
+}
+
+@fragment
+fn clouds_before_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    if !meets_sky(position.xy) {
+        discard;
+    }
+    let direction = backdrop_direction(2.0 * position.xy);
+    var clouds = clouds_seen_before(clouds_place_before(direction));
+    if clouds.w < 0.0 || are_clouds_due(position.xy) {
+        let marched = clouds_before(frame.eye.xyz, direction, frame.eye.w);
+        clouds = vec4<f32>(limited(marched.xyz), marched.w);
+    }
+    return clouds;
+}
