@@ -26,32 +26,23 @@ fn clouds_place_before(direction: vec3<f32>) -> vec2<f32> {
     let rise = scene.cloud_height.x - frame.eye.z;
     let reach = rise / max(direction.z, 1e-5);
     let relative = direction * reach + frame.before_eye.xyz;
-    let ahead = dot(relative, frame.before_forward.xyz);
-    let aside = vec2<f32>(dot(relative, frame.before_right.xyz), -dot(relative, frame.before_up.xyz));
-    let half = vec2<f32>(frame.before_right.w, frame.before_up.w);
-    let size = vec2<f32>(textureDimensions(clouds_light_before));
-    let place = (0.5 + 0.5 * aside / (half * max(ahead, 1e-9))) * size;
+    let before = place_before(relative, textureDimensions(clouds_light_before));
     let is_near = length(frame.before_eye.xyz) <= SAME_EYE * rise;
-    return select(vec2<f32>(-9.0), place, is_near & (ahead > 0.0) & (direction.z > 1e-3));
+    return select(vec2<f32>(-9.0), before.xy, is_near & (before.z > frame.forward.w) & (direction.z > 1e-3));
 }
 
 // The clouds that were seen there, between four texels; none drawn where one of them was not.
 fn clouds_seen_before(place: vec2<f32>) -> vec4<f32> {
-    let nearest = round(place - 0.5);
-    let middle = select(place - 0.5, nearest, abs(place - 0.5 - nearest) < vec2<f32>(AT_REST));
-    let start = floor(middle);
-    let share = middle - start;
-    let last = vec2<i32>(textureDimensions(clouds_light_before)) - 1;
+    let size = textureDimensions(clouds_light_before);
+    let around = between_texels(place);
     var sum = vec4<f32>(0.0);
-    var is_drawn = all(middle >= vec2<f32>(0.0)) && all(middle <= vec2<f32>(last));
+    var is_drawn = all(around.first >= vec2<f32>(0.0)) && all(around.first + around.share <= vec2<f32>(size - 1u));
     var corner = 0;
     loop {
-        let aside = vec2<i32>(corner & 1, corner >> 1u);
-        let clouds = textureLoad(clouds_light_before, clamp(vec2<i32>(start) + aside, vec2<i32>(0), last), 0);
-        let weights = select(1.0 - share, share, aside == vec2<i32>(1));
-        let weight = weights.x * weights.y;
-        sum += weight * clouds;
-        is_drawn = is_drawn && (clouds.w >= 0.0 || weight == 0.0);
+        let here = corner_of(around, corner, size);
+        let clouds = textureLoad(clouds_light_before, here.texel, 0);
+        sum += here.weight * clouds;
+        is_drawn = is_drawn && (clouds.w >= 0.0 || here.weight == 0.0);
         corner++;
         if corner >= 4 {
             break;

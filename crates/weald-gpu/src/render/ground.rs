@@ -142,15 +142,10 @@ pub(super) struct InSight {
     /// The sky, and what lies below the horizon behind all ground.
     backdrop: [bool; 2],
     /// Whether the camera is above the base of clouds.
-    is_over_clouds: bool,
+    pub(super) is_over_clouds: bool,
 }
 
 impl InSight {
-    /// Whether the camera is above the base of clouds.
-    pub(super) fn is_over_clouds(self) -> bool {
-        self.is_over_clouds
-    }
-
     /// Of a camera that is so high above all ground, for pixels of such an angle, where clouds begin at a height.
     pub(super) fn of(camera: &Camera, above: f32, pixel_angle: f32, cloud_base: Option<f32>) -> Self {
         let Camera { forward, right, up, half, .. } = camera;

@@ -136,7 +136,7 @@ impl Passes {
             };
             let depths = ground::depths_layouts(gpu, samples);
             let picks = picking::layout(gpu, samples);
-            let before = ReprojectionLayouts::new(gpu, samples);
+            let before = ReprojectionLayouts::new(gpu);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
@@ -296,7 +296,7 @@ impl Passes {
             let mut pass = targets.cloud_pass(encoder);
             bind(&mut pass, groups);
             // Of clouds around the eye each has another distance.
-            let takes = before.clouds(self.reprojection.as_ref()).filter(|_| !in_sight.is_over_clouds());
+            let takes = before.clouds(self.reprojection.as_ref()).filter(|_| !in_sight.is_over_clouds);
             match takes {
                 _ if !is_seen => {}
                 Some((pipeline, group)) => ground::draw_whole(&mut pass, pipeline, group),

@@ -83,9 +83,9 @@ struct Kept {
 }
 
 impl ReprojectionLayouts {
-    /// For pictures of so many samples, of which those of several take nothing.
-    pub(super) fn new(gpu: &Gpu, samples: u32) -> Self {
-        let depths = depths_entry(samples, ShaderStages::FRAGMENT);
+    /// For pictures of one sample: those of several take nothing.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let depths = depths_entry(1, ShaderStages::FRAGMENT);
         let front = BindGroupLayoutEntry { binding: FRONT_BINDING, ..depths };
         let ty = BindingType::Texture {
             sample_type: TextureSampleType::Float { filterable: false },

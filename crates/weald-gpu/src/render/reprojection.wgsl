@@ -37,41 +37,66 @@ fn is_due(position: vec2<f32>) -> bool {
     return (block.x & 1u) + 2u * ((block.x ^ block.y) & 1u) == u32(frame.before_forward.w);
 }
 
+// Where a point relative to the eye of the picture before was in that, in texels of a canvas of such a size, and how far ahead.
+fn place_before(relative: vec3<f32>, size: vec2<u32>) -> vec3<f32> {
+    let ahead = dot(relative, frame.before_forward.xyz);
+    let aside = vec2<f32>(dot(relative, frame.before_right.xyz), -dot(relative, frame.before_up.xyz));
+    let half = vec2<f32>(frame.before_right.w, frame.before_up.w);
+    return vec3<f32>((0.5 + 0.5 * aside / (half * max(ahead, frame.forward.w))) * vec2<f32>(size), ahead);
+}
+
+// The first of the four texels around a place, and how far it is on the way to the others.
+struct Between {
+    first: vec2<f32>,
+    share: vec2<f32>,
+}
+
+fn between_texels(place: vec2<f32>) -> Between {
+    let nearest = round(place - 0.5);
+    let middle = select(place - 0.5, nearest, abs(place - 0.5 - nearest) < vec2<f32>(AT_REST));
+    let first = floor(middle);
+    return Between(first, middle - first);
+}
+
+// A corner of the four: its texel, within the canvas, and its weight.
+struct Corner {
+    texel: vec2<i32>,
+    weight: f32,
+}
+
+fn corner_of(around: Between, corner: i32, size: vec2<u32>) -> Corner {
+    let aside = vec2<i32>(corner & 1, corner >> 1u);
+    let weights = select(1.0 - around.share, around.share, aside == vec2<i32>(1));
+    let texel = clamp(vec2<i32>(around.first) + aside, vec2<i32>(0), vec2<i32>(size) - 1);
+    return Corner(texel, weights.x * weights.y);
+}
+
 // Where a point of this picture was in the one before, in pixels, and how deep; 0 where its light would be another one now.
 fn seen_before(position: vec2<f32>, depth: f32) -> vec3<f32> {
     let here = along_at(position) * (frame.forward.w / depth);
     let relative = here + frame.before_eye.xyz;
-    let size = vec2<f32>(textureDimensions(light_before));
-    let ahead = dot(relative, frame.before_forward.xyz);
-    let aside = vec2<f32>(dot(relative, frame.before_right.xyz), -dot(relative, frame.before_up.xyz));
-    let half = vec2<f32>(frame.before_right.w, frame.before_up.w);
-    let place = (0.5 + 0.5 * aside / (half * max(ahead, frame.forward.w))) * size;
+    let before = place_before(relative, textureDimensions(light_before));
+    let ahead = before.z;
     let distance = length(here);
     let is_alike = abs(length(relative) - distance) <= SAME_DISTANCE * distance;
-    return vec3<f32>(place, select(0.0, frame.forward.w / ahead, is_alike && ahead > frame.forward.w));
+    return vec3<f32>(before.xy, select(0.0, frame.forward.w / ahead, is_alike && ahead > frame.forward.w));
 }
 
 // The light of ground at such a place and depth, with its age; none where it is too old, or was not seen.
 fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
-    let nearest = round(place.xy - 0.5);
-    let middle = select(place.xy - 0.5, nearest, abs(place.xy - 0.5 - nearest) < vec2<f32>(AT_REST));
-    let start = floor(middle);
-    let share = middle - start;
-    let last = vec2<i32>(textureDimensions(light_before)) - 1;
+    let size = textureDimensions(light_before);
+    let around = between_texels(place.xy);
     var sum = vec3<f32>(0.0);
     var depth = 0.0;
     var seen = 0.0;
     var youth = 1.0;
     var corner = 0;
     loop {
-        let aside = vec2<i32>(corner & 1, corner >> 1u);
-        let at = clamp(vec2<i32>(start) + aside, vec2<i32>(0), last);
-        let light = textureLoad(light_before, at, 0);
-        let weights = select(1.0 - share, share, aside == vec2<i32>(1));
-        let weight = weights.x * weights.y;
-        let lit = select(0.0, weight, light.w > 0.0);
+        let here = corner_of(around, corner, size);
+        let light = textureLoad(light_before, here.texel, 0);
+        let lit = select(0.0, here.weight, light.w > 0.0);
         sum += lit * light.xyz;
-        depth += weight * textureLoad(depths_before, at, 0);
+        depth += here.weight * textureLoad(depths_before, here.texel, 0);
         seen += lit;
         youth = select(youth, min(youth, light.w), lit > 0.02);
         corner++;
@@ -79,10 +104,10 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
             break;
         }
     }
-    let is_within = all(place.xy >= vec2<f32>(0.0)) && all(place.xy <= vec2<f32>(last + 1));
+    let is_within = all(place.xy >= vec2<f32>(0.0)) && all(place.xy <= vec2<f32>(size));
     let is_same = is_within && place.z > 0.0 && abs(depth - place.z) <= SAME_POINT * place.z;
     if is_same && seen <= SEEN_BEFORE {
-        let near = light_near(vec2<i32>(nearest), place.z);
+        let near = light_near(vec2<i32>(round(place.xy - 0.5)), place.z);
         return select(vec4<f32>(0.0), vec4<f32>(near.xyz, near.w - AGE), near.w > OLDEST);
     }
     let is_known = is_same && youth > OLDEST;

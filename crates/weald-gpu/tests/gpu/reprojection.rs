@@ -34,6 +34,12 @@ impl Shown {
         self.screen.image().expect("read back")
     }
 
+    /// What is seen at the end of a path, and the same lit anew.
+    fn after(&mut self, path: &[Camera]) -> [Image; 2] {
+        let seen = path.iter().map(|camera| self.draw(camera)).last().expect("some cameras");
+        [seen, self.anew(&path[path.len() - 1])]
+    }
+
     fn anew(&mut self, camera: &Camera) -> Image {
         self.renderer.render(camera).expect("drawn")
     }
@@ -54,12 +60,7 @@ fn a_camera_that_moves_sees_what_a_picture_shows_that_is_lit_anew() {
         above(&shown.scene, [1600.0 + 6.0 * f64::from(step), 1900.0], 300.0, 25.0, 0.4 * step)
     };
     let cameras: Vec<_> = (0..PICTURES).map(at).collect();
-    let mut seen = shown.anew(&cameras[0]);
-    for camera in &cameras {
-        seen = shown.draw(camera);
-    }
-    let camera = &cameras[usize::from(PICTURES) - 1];
-    let anew = shown.anew(camera);
+    let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     // Some light is that of pictures before, and nothing is seen of it.
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
@@ -79,13 +80,7 @@ fn ground_that_comes_out_from_behind_blades_has_the_light_of_what_is_beside_it()
         above(&shown.scene, [60.0 + 0.14 * f64::from(step), 60.0], 1.7, 8.0, 40.0 + 0.5 * step)
     };
     let cameras: Vec<_> = (0..PICTURES).map(at).collect();
-    let last = cameras[usize::from(PICTURES) - 1];
-    shown.anew(&last);
-    let mut seen = shown.draw(&cameras[0]);
-    for camera in &cameras[1..] {
-        seen = shown.draw(camera);
-    }
-    let anew = shown.anew(&last);
+    let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
     // 0.062, where only ground that nothing hid were taken 0.050.
@@ -156,16 +151,11 @@ fn clouds_before_a_camera_that_moves_are_those_of_a_picture_that_is_lit_anew() {
     };
     let cameras: Vec<_> = (0..PICTURES).map(at).collect();
     let last = cameras[usize::from(PICTURES) - 1];
-    let mut seen = shown.anew(&last);
-    for camera in &cameras {
-        seen = shown.draw(camera);
-    }
-    let anew = shown.anew(&last);
+    let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
     // Between texels some sharpness is lost: 0.036, where pictures a degree apart differ by 0.25.
     assert!(found < 0.05, "{found}");
-    // Seen from a few metres off, what is not settled is another picture.
     let other = flip(&shown.anew(&cameras[usize::from(PICTURES) - 3]), &anew).mean;
     assert!(4.0 * found < other, "{found}, {other} for pictures a degree apart");
     while !shown.screen.is_settled() {
