@@ -73,15 +73,19 @@ mod tests {
         let sets = in_order(sets());
         let bounds = bounds(&sets, &SPECIES);
         assert_eq!(bounds.len(), sets.len().div_ceil(RUN as usize));
+        let mut beyond_blades = 0.0;
         for (run, [east, south, radius, rank]) in sets.chunks(RUN as usize).zip(&bounds) {
+            let mut longest = 0.0_f32;
             for set in run {
                 let Instance { place, tuft, species } = Instance::unpack(*set);
                 let reach = reach_of_blades(&SPECIES[species as usize]);
                 let away = (place[0] - east).hypot(place[1] - south);
                 assert!(away + reach <= *radius && tuft.rank() >= *rank);
+                longest = longest.max(reach);
             }
+            beyond_blades += radius - longest;
         }
-        let mean = bounds.iter().map(|bounds| bounds[2]).sum::<f32>() / bounds.len() as f32;
-        assert!(mean < 4.0, "{mean} m");
+        let mean = beyond_blades / bounds.len() as f32;
+        assert!(mean < SQUARE, "{mean} m beyond the longest blades");
     }
 }
