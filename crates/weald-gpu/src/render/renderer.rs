@@ -364,7 +364,7 @@ impl Renderer {
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &mut self.plants {
             plants.grow(encoder, groups, from);
-            plants.choose(encoder, groups);
+            plants.choose(encoder, groups, drawn.stale);
         }
         if let Some(grass) = &mut self.grass {
             let around = Around { from, look: self.grass_look, viewer: &onto.viewer, waits };

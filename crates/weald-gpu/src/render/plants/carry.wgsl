@@ -54,9 +54,14 @@ fn limb_at(number: u32) -> Limb {
     return Limb(joint.xyz, joint.w, bitcast<vec3<f32>>(record.second.xyz), record.second.w);
 }
 
+// Of which view the seats are: the camera's, those that plants share, then those of cascades that are drawn.
+fn carried_view(number: u32) -> u32 {
+    return select(drawn_view(max(number, 1u) - 1u), SHARED_VIEW, number == 1u);
+}
+
 @compute @workgroup_size(THREADS)
 fn carry_limbs(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) thread: u32) {
-    let view = group.y;
+    let view = carried_view(group.y);
     let level = level_of_seat(view, group.x);
     if level >= PLANT_LEVELS {
         return;

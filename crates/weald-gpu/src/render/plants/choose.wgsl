@@ -62,25 +62,20 @@ fn count_plants(
     @builtin(num_workgroups) all: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    if !is_drawn(group.y) {
-        return;
-    }
-    let list = list_of(group.y, group.x * GROUP + local);
+    let view = drawn_view(group.y);
+    let list = list_of(view, group.x * GROUP + local);
     if list < LISTS {
         atomicAdd(&tally[list], 1u);
     }
     workgroupBarrier();
     if local < LISTS {
-        counts[(group.y * all.x + group.x) * LISTS + local] = atomicLoad(&tally[local]);
+        counts[(view * all.x + group.x) * LISTS + local] = atomicLoad(&tally[local]);
     }
 }
 
 @compute @workgroup_size(16)
 fn line_up(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) list: u32) {
-    let view = group.x;
-    if !is_drawn(view) {
-        return;
-    }
+    let view = drawn_view(group.x);
     let groups = arrayLength(&counts) / (VIEWS * LISTS);
     if list < LISTS {
         var sum = 0u;
@@ -116,10 +111,7 @@ fn place_plants(
     @builtin(num_workgroups) all: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let view = group.y;
-    if !is_drawn(view) {
-        return;
-    }
+    let view = drawn_view(group.y);
     let number = group.x * GROUP + local;
     let list = list_of(view, number);
     lists[local] = list;

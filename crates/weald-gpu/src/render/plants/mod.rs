@@ -23,10 +23,11 @@ use weald::{Error, Landscape};
 
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, RenderPass};
 
+use super::cascades::CASCADES;
 use super::layouts::Layouts;
 use crate::gpu::Gpu;
 use batch::Batch;
-use lists::{LISTS, LISTS_OF_FINEST, SEATED_LISTS, SEATS, VIEWS};
+use lists::{LISTS, LISTS_OF_FINEST, SEATED_CASCADES, SEATED_LISTS, SEATS};
 use mesh::DRAW;
 use pipelines::Pipelines;
 use wood::{REACH, Wood};
@@ -80,15 +81,22 @@ impl Plants {
         self.sets.iter().chain(trees)
     }
 
-    /// Encodes the choice of what is drawn in all views.
-    pub(super) fn choose(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+    /// Encodes the choice of what is drawn for the camera and in cascades that are drawn anew.
+    pub(super) fn choose(
+        &self,
+        encoder: &mut CommandEncoder,
+        groups: [&BindGroup; 2],
+        stale: [bool; CASCADES],
+    ) {
+        let drawn = |cascades: &[bool]| cascades.iter().map(|&is_stale| u32::from(is_stale)).sum::<u32>();
+        let views = 1 + drawn(&stale);
+        let carried = 2 + drawn(&stale[..SEATED_CASCADES]);
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
         for (at, group) in (0..).zip(groups) {
             pass.set_bind_group(at, group, &[]);
         }
         for set in self.drawn() {
             pass.set_bind_group(2, &set.choose, &[]);
-            let views = VIEWS as u32;
             let [count, line_up, place] = &self.pipelines.choose;
             for (pipeline, [across, down]) in
                 [(count, [set.groups, views]), (line_up, [views, 1]), (place, [set.groups, views])]
@@ -98,7 +106,7 @@ impl Plants {
             }
             pass.set_bind_group(2, &set.carry, &[]);
             pass.set_pipeline(&self.pipelines.carry);
-            pass.dispatch_workgroups(SEATS.into_iter().max().unwrap_or(0), views, 1);
+            pass.dispatch_workgroups(SEATS.into_iter().max().unwrap_or(0), carried, 1);
         }
     }
 

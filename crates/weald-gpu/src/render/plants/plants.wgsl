@@ -49,6 +49,18 @@ fn is_drawn(view: u32) -> bool {
     return view == 0u || frame.stale[max(view, 1u) - 1u] > 0.0;
 }
 
+// The view of a number among those that are drawn, of which the camera's is the first: software would work on all plants for each
+// view that is not.
+fn drawn_view(number: u32) -> u32 {
+    var found = 0u;
+    var drawn = 0u;
+    for (var view = 1u; view < VIEWS; view++) {
+        drawn += select(0u, 1u, is_drawn(view));
+        found = select(found, view, is_drawn(view) && drawn == number);
+    }
+    return found;
+}
+
 // How far a plant is at least from the eye, or from what stands for it in a cascade.
 fn distance_in(view: u32, plant: PlacedPlant) -> f32 {
     if view == 0u || view == VIEWS - 1u {
