@@ -45,8 +45,9 @@ struct Numbers {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureBefore {
     pub(super) camera: Camera,
-    /// Which pixels are lit anew all the same.
+    /// Which pixels are lit anew all the same, and in how many turns all are.
     pub(super) turn: u32,
+    pub(super) turns: u32,
 }
 
 /// What a camera's ground was selected for.
@@ -169,10 +170,10 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
 
 /// The eye from the one before, exact where both are near, and that camera.
 fn numbers_before(camera: &Camera, before: PictureBefore) -> [[f32; 4]; 4] {
-    let PictureBefore { camera: Camera { eye, forward, right, up, half }, turn } = before;
+    let PictureBefore { camera: Camera { eye, forward, right, up, half }, turn, turns } = before;
     let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
     let moved = std::array::from_fn(|axis| camera.eye[axis] - eye[axis]);
-    [with(moved, 0.0), with(forward, turn as f32), with(right, half[0]), with(up, half[1])]
+    [with(moved, turns as f32), with(forward, turn as f32), with(right, half[0]), with(up, half[1])]
 }
 
 fn bind(

@@ -24,8 +24,8 @@ struct Frame {
     woods: vec4<f32>,
     // 1 for each cascade that is drawn anew.
     stale: vec4<f32>,
-    // Where this eye is from that of the picture before, and the directions of its camera; with the turn of pixels that are lit
-    // anew, and the tangents of half its angles.
+    // Where this eye is from that of the picture before, and the directions of its camera; with the number of turns in which
+    // pixels are lit anew, the turn, and the tangents of half its angles.
     before_eye: vec4<f32>,
     before_forward: vec4<f32>,
     before_right: vec4<f32>,

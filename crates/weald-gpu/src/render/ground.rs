@@ -93,45 +93,46 @@ pub(super) fn depths_groups(gpu: &Gpu, layouts: &[BindGroupLayout; 3], targets: 
 
 /// In the order in which they are drawn, with the kinds as `ground.wgsl` numbers them.
 const LIGHTS: [Light; 3] = [
-    Light { fragment: "far_fragment", kinds: 1..3, over: Over::Nothing },
-    Light { fragment: "near_fragment", kinds: 3..5, over: Over::Nothing },
-    Light { fragment: "water_fragment", kinds: 2..4, over: Over::Flowing },
+    Light { fragment: "far_fragment", kinds: [9..11, NONE], over: Over::Nothing },
+    Light { fragment: "near_fragment", kinds: [NONE, 11..13], over: Over::Nothing },
+    Light { fragment: "water_fragment", kinds: [10..11, 11..12], over: Over::Flowing },
 ];
 
 /// The same of the ground beyond the border, and of what it fades into.
 const LIGHTS_BEYOND: [Light; 4] = [
-    Light { fragment: "far_beyond_fragment", kinds: 11..13, over: Over::Nothing },
-    Light { fragment: "near_beyond_fragment", kinds: 13..15, over: Over::Nothing },
-    Light { fragment: "water_beyond_fragment", kinds: 12..14, over: Over::Flowing },
-    Light { fragment: "farthest_fragment", kinds: 11..15, over: Over::Still },
+    Light { fragment: "far_beyond_fragment", kinds: [1..3, NONE], over: Over::Nothing },
+    Light { fragment: "near_beyond_fragment", kinds: [NONE, 25..27], over: Over::Nothing },
+    Light { fragment: "water_beyond_fragment", kinds: WET_BEYOND, over: Over::Flowing },
+    Light { fragment: "farthest_fragment", kinds: [1..3, 25..27], over: Over::Still },
 ];
 
 /// What lies behind the landscape.
 const BACKDROP: [Light; 2] = [
-    Light { fragment: "sky_fragment", kinds: 9..10, over: Over::Nothing },
-    Light { fragment: "plain_fragment", kinds: 10..11, over: Over::Nothing },
+    Light { fragment: "sky_fragment", kinds: [17..18, NONE], over: Over::Nothing },
+    Light { fragment: "plain_fragment", kinds: [18..19, NONE], over: Over::Nothing },
 ];
+
+/// No kinds, and those of water beyond the border.
+const NONE: Range<u32> = 0..0;
+const WET_BEYOND: [Range<u32>; 2] = [2..3, 25..26];
 
 /// How much further the kinds behind edges are numbered, as the shader has it.
 const BEHIND_EDGE: u32 = 4;
 
-/// The first kind that is seen from close by, and the first beyond the border; with the footprint in metres of a pixel from
-/// which on there is none, as `detail.wgsl` has it.
-const FIRST_NEAR: u32 = 3;
-const FIRST_BEYOND: u32 = 11;
+/// Footprint in metres of a pixel from which on no ground is seen from close by, as `detail.wgsl` has it.
 const DETAIL_FROM: f32 = 0.30;
 
 /// What becomes of the opacity of ground under water, which says whether the next picture takes its light.
 const STAYS: Color = Color::WHITE;
 const FORGOTTEN: Color = Color::TRANSPARENT;
 
-/// The kinds that a light draws, behind edges or not, and those of them where nothing is close by.
+/// The kinds that a light draws, far away and close by, behind edges or not.
 fn kinds_of(light: &Light, is_behind: bool) -> [Range<u32>; 2] {
     let further = if is_behind { BEHIND_EDGE } else { 0 };
-    let kinds = light.kinds.start + further..light.kinds.end + further;
-    let first = if kinds.start >= FIRST_BEYOND { FIRST_BEYOND - 1 } else { 0 };
-    let far = kinds.start..kinds.end.min(first + FIRST_NEAR + further);
-    [kinds, far]
+    light
+        .kinds
+        .clone()
+        .map(|kinds| if kinds.is_empty() { kinds } else { kinds.start + further..kinds.end + further })
 }
 
 /// What a camera may see at all: what it does not see costs a look at each pixel.
@@ -167,8 +168,9 @@ pub(super) struct Ground {
     kind: RenderPipeline,
     /// The light of clouds, and what draws it before all else; `None` where there are none.
     clouds: Option<[RenderPipeline; 2]>,
-    /// With the kinds that each draws, those of them where nothing is close by, and what becomes of the opacity below where
-    /// something is.
+    /// What finds water beyond the border, far away and close by; `None` where kinds tell it.
+    wet_beyond: Option<[RenderPipeline; 2]>,
+    /// With the kinds that each draws, far away and close by, and what becomes of the opacity below what is close by.
     lights: Vec<(RenderPipeline, [Range<u32>; 2], Color)>,
     backdrop: [RenderPipeline; 2],
 }
@@ -197,6 +199,8 @@ impl Ground {
             depth: parts.depth("ground_vertex"),
             beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
+            wet_beyond: (parts.has.horizon && parts.samples == 1)
+                .then(|| [true, false].map(|is_far| parts.wet_beyond(is_far))),
             clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
             lights: made.zip(drawn).map(|(pipeline, (kinds, ages))| (pipeline, kinds, ages)).collect(),
             backdrop,
@@ -226,15 +230,20 @@ impl Ground {
     }
 
     /// Draws the kind of each pixel.
-    pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &[BindGroup; 3]) {
+    pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &[BindGroup; 3], in_sight: InSight) {
         draw_whole(pass, &self.kind, &depths[WITH_LIGHT]);
+        let wet = self.wet_beyond.iter().flatten().zip(WET_BEYOND).zip([true, in_sight.is_near]);
+        for ((pipeline, kinds), _) in wet.filter(|(_, is_seen)| *is_seen) {
+            pass.set_pipeline(pipeline);
+            pass.draw(0..3, kinds);
+        }
     }
 
     /// Draws the light of every pixel that has a depth.
     pub(super) fn draw_light(&self, pass: &mut RenderPass<'_>, depths: &BindGroup, in_sight: InSight) {
         pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
-        for (pipeline, [all, far], ages) in &self.lights {
-            let near = far.end..if in_sight.is_near { all.end } else { far.end };
+        for (pipeline, [far, near], ages) in &self.lights {
+            let near = if in_sight.is_near { near.clone() } else { NONE };
             // Water that is close by flows: its pixels are no longer light of ground that the next picture takes.
             for (kinds, ages) in [(far.clone(), STAYS), (near, *ages)] {
                 if !kinds.is_empty() {
@@ -258,7 +267,7 @@ impl Ground {
             if is_seen {
                 pass.set_bind_group(DEPTHS_GROUP, &depths[1 - which], &[]);
                 pass.set_pipeline(&self.backdrop[which]);
-                pass.draw(0..3, BACKDROP[which].kinds.clone());
+                pass.draw(0..3, BACKDROP[which].kinds[0].clone());
             }
         }
         if let Some([_, over]) = self.clouds.as_ref().filter(|_| in_sight.is_over_clouds) {

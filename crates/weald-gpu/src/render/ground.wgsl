@@ -4,17 +4,19 @@
 // What a pixel shows is one of a few kinds, which are written as depths of a canvas of their own; each kind of light is then
 // drawn where the depth is its own. A shader that branched would on software run all of its branches for all pixels.
 
-// Kinds of ground, and of what is behind it, in the order in which ranges of them are drawn: each times `KIND` is a depth.
-const FAR_DRY = 1u;
-const FAR_WET = 2u;
-const NEAR_WET = 3u;
-const NEAR_DRY = 4u;
-const OPEN_SKY = 9u;
-const PLAIN = 10u;
+// Kinds of ground, and of what is behind it, in the order in which ranges of them are drawn: each times `KIND` is a depth. Dry
+// ground beyond the border has the first kind and the last: what is wet of each is found by one comparison of depths.
+const FAR_BEYOND_DRY = 1u;
+const FAR_BEYOND_WET = 2u;
+const FAR_DRY = 9u;
+const FAR_WET = 10u;
+const NEAR_WET = 11u;
+const NEAR_DRY = 12u;
+const OPEN_SKY = 17u;
+const PLAIN = 18u;
+const NEAR_BEYOND_WET = 25u;
+const NEAR_BEYOND_DRY = 26u;
 const KIND = 0.03125;
-
-// How much further the kinds of ground beyond the border are than those within.
-const BEYOND = 10u;
 
 // How much further the kinds are of samples that are not of the first surface of their pixel: those behind an edge.
 const BEHIND_EDGE = 4u;
@@ -46,8 +48,8 @@ fn whole_vertex(
     return vec4<f32>(vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, f32(kind) * KIND, 1.0);
 }
 
-// What something else hides.
-const HIDDEN = 0u;
+// What something else hides, and what a canvas of kinds is cleared to.
+const HIDDEN = 19u;
 
 // Whether something hides a sample of the ground, or of what lies behind it.
 fn is_hidden(position: vec2<f32>, sample: i32) -> bool {
@@ -85,19 +87,19 @@ fn surface_of(position: vec2<f32>, is_behind: bool) -> SeenSurface {
     return SeenSurface(samples, point_at(position, max(mean, 1e-20)));
 }
 
-// The kind of ground of a surface.
+// The kind of ground of a surface. Where a pixel has one sample, water beyond the border is found later (`wet_beyond_fragment`).
 fn kind_of(surface: SeenSurface) -> u32 {
     let place = place_of(surface.point);
     let is_far = length(surface.point - frame.eye.xyz) * frame.eye.w >= DETAIL_FROM;
     let goes_on = HORIZON && is_beyond(place);
-    var is_wet = false;
-    if goes_on {
+    var is_wet = !goes_on & (wet_share(place, spline_at(bed, place)) > 0.0);
+    if SAMPLED && goes_on {
         is_wet = wet_share_beyond(place, ground_beyond(place)) > 0.0;
-    } else {
-        is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
     }
-    let first = select(0u, BEYOND, goes_on);
-    return first + select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
+    if goes_on {
+        return select(select(NEAR_BEYOND_DRY, FAR_BEYOND_DRY, is_far), select(NEAR_BEYOND_WET, FAR_BEYOND_WET, is_far), is_wet);
+    }
+    return select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
 }
 
 // The kind of what is seen at a place of the picture: of a surface, or of what is behind the ground where it has no samples.
@@ -122,6 +124,16 @@ fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth)
         discard;
     }
     return f32(kind_seen(position.xy, surface_of(position.xy, false))) * KIND;
+}
+
+// Leaves of dry ground beyond the border, for which comparing depths selects, what is wet: of ground that lies there the height
+// is dear, and software works it out for all pixels of what writes depths.
+@fragment
+fn wet_beyond_fragment(@builtin(position) position: vec4<f32>) {
+    let place = place_of(seen_point(position));
+    if wet_share_beyond(place, ground_beyond(place)) <= 0.0 {
+        discard;
+    }
 }
 
 @fragment

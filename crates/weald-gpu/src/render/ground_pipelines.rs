@@ -13,10 +13,10 @@ use super::layouts::depth_state;
 use super::targets::LIGHT;
 use crate::gpu::context::Context;
 
-/// A kind of light, the kinds of ground that have it, and what it is laid over.
+/// A kind of light, the kinds of ground that have it, far away and close by, and what it is laid over.
 pub(super) struct Light {
     pub(super) fragment: &'static str,
-    pub(super) kinds: Range<u32>,
+    pub(super) kinds: [Range<u32>; 2],
     pub(super) over: Over,
 }
 
@@ -132,8 +132,22 @@ impl Parts<'_> {
             fragment: Some(fragment),
             constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has.horizon))],
             target: None,
-            // What has a kind already keeps it: no other is as far.
-            depth: Some((true, CompareFunction::Greater)),
+            depth: Some((true, CompareFunction::Always)),
+        })
+    }
+
+    /// Which dry ground beyond the border is wet: that of the first kind, or of the last.
+    pub(super) fn wet_beyond(&self, is_far: bool) -> RenderPipeline {
+        let compare = if is_far { CompareFunction::Greater } else { CompareFunction::Less };
+        self.pipeline(&Drawn {
+            key: format!("wet beyond {is_far}"),
+            layout: self.layouts[3],
+            samples: self.samples,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some("wet_beyond_fragment"),
+            constants: &[("HORIZON", 1.0)],
+            target: None,
+            depth: Some((true, compare)),
         })
     }
 

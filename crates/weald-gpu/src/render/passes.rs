@@ -260,7 +260,7 @@ impl Passes {
         // What is hidden by now is not lit.
         let mut pass = targets.kind_pass(encoder, takes);
         bind(&mut pass, groups);
-        self.ground.draw_kinds(&mut pass, depths);
+        self.ground.draw_kinds(&mut pass, depths, drawing.in_sight);
         drop(pass);
         let mut pass = targets.ground_pass(encoder);
         bind(&mut pass, groups);

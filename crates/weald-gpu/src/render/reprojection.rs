@@ -4,9 +4,9 @@
 //! The light of ground depends on the eye by haze, detail and gloss alone, which change slowly; the point of a pixel is known
 //! from its depth, and so is where the picture before had it. From there its light is taken, between four pixels, unless the
 //! depth of the ground there was another one or the light is older than some pictures; where something grew before it, from the
-//! nearest ground beside it of that depth. One block of pixels in four is lit anew by turns, so that no light is older than
-//! that, and a camera that has stood still for that long has the picture that is lit anew as a whole
-//! ([`super::screen::Screen::is_settled`]). Clouds are taken from where their base was seen (`clouds_before.wgsl`).
+//! nearest ground beside it of that depth. One block of pixels in eight is lit anew by turns, of a camera at rest one in
+//! four, so that no light is older than that, and a camera that has stood still for that long has the picture that is lit anew
+//! as a whole ([`super::screen::Screen::is_settled`]). Clouds are taken from where their base was seen (`clouds_before.wgsl`).
 //!
 //! What differs from the source: due pixels are blocks by turns, not random ones, because devices light blocks; ground that
 //! something hid is not always lit anew, because among blades nearly all of it comes and goes; and water that is close by is
@@ -32,8 +32,9 @@ const LIGHT_BEFORE: u32 = 6;
 const DEPTHS_BEFORE: u32 = 7;
 const CLOUDS_BEFORE: u32 = 9;
 
-/// Turns in which all pixels are lit anew.
-const TURNS: u32 = 4;
+/// Turns in which all pixels are lit anew, as the shader has them, and fewer of them for a camera at rest.
+const TURNS: u32 = 8;
+const TURNS_AT_REST: u32 = TURNS / 2;
 
 /// Longest time in seconds between two pictures of which one takes light from the other: clouds' shadows move on meanwhile.
 const LONGEST: f32 = 2.0;
@@ -123,12 +124,15 @@ impl Reprojection {
         self.turn = (self.turn + 1) % TURNS;
         // Where this picture is not drawn to its end, the next one is lit anew.
         let before = self.before.take().filter(|before| before.lights(now));
-        self.unsettled = match &before {
+        let rests = before.is_some_and(|before| before.camera == now.camera);
+        let turns = if rests { TURNS_AT_REST } else { TURNS };
+        self.unsettled = match before {
             None => 0,
-            Some(before) if before.camera == now.camera => self.unsettled.saturating_sub(1),
-            Some(_) => TURNS,
+            Some(_) if rests => self.unsettled.saturating_sub(1),
+            Some(_) => TURNS_AT_REST,
         };
-        Ok(before.map(|before| PictureBefore { camera: before.camera, turn: self.turn }))
+        let turn = self.turn % turns;
+        Ok(before.map(|before| PictureBefore { camera: before.camera, turn, turns }))
     }
 
     /// Whether the last picture is as one that is lit anew as a whole.

@@ -1,19 +1,20 @@
 // Light of the ground that the picture before has: it depends little on where the eye is, so that it is taken from the place
-// at which its point was seen then, and made anew for one pixel in four and wherever it was not seen (`reprojection.rs`).
+// at which its point was seen then, and made anew for one pixel in eight and wherever it was not seen (`reprojection.rs`).
 
 @group(2) @binding(6) var light_before: texture_2d<f32>;
 @group(2) @binding(7) var depths_before: texture_depth_2d;
 
-// The kind of pixels that are lit by the picture before: beyond all kinds that are lit anew.
-const REPROJECTED = 31u;
+// The kind of pixels that are lit by the picture before, which nothing lights anew.
+const REPROJECTED = 20u;
 
 // What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, and
 // nothing where something else than ground is seen. It is taken down to OLDEST.
-const AGE = 0.125;
+const AGE = 0.0625;
 const OLDEST = 0.45;
 
-// Pixels along the side of a block, of which one in four is due in each picture: software lights four by four at once.
+// Pixels along the side of a block: software lights four by four at once. One block in so many is due in each picture.
 const BLOCK = 4u;
+const TURNS = 8u;
 
 // By which share the depth of the same point may differ: between depths it is interpolated, which is exact on planes.
 const SAME_POINT = 0.01;
@@ -31,10 +32,10 @@ const SAME_DISTANCE = 0.06;
 // Least share of the texels around a place that must show ground.
 const SEEN_BEFORE = 0.5;
 
-// Whether a pixel is lit anew by its turn.
+// Whether a pixel is lit anew by its turn: turns return sooner where the camera stands still.
 fn is_due(position: vec2<f32>) -> bool {
     let block = vec2<u32>(position) / BLOCK;
-    return (block.x & 1u) + 2u * ((block.x ^ block.y) & 1u) == u32(frame.before_forward.w);
+    return (block.x + 3u * block.y) % TURNS % u32(frame.before_eye.w) == u32(frame.before_forward.w);
 }
 
 // Where a point relative to the eye of the picture before was in that, in texels of a canvas of such a size, and how far ahead.

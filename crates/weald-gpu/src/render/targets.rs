@@ -18,6 +18,9 @@ pub(super) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 /// Format of depth.
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
+/// What kinds of ground are cleared to: that of what something else hides, as `ground.wgsl` has it.
+const HIDDEN: f32 = 19.0 / 32.0;
+
 /// What nothing drew on: no light of a landscape.
 const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 0.0 };
 
@@ -87,14 +90,14 @@ impl Targets {
     pub(super) fn reprojection_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
         let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
         encoder.begin_render_pass(&RenderPassDescriptor {
-            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(0.0), StoreOp::Store)),
+            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(HIDDEN), StoreOp::Store)),
             ..described("reprojection", &[Some(attachment)], None)
         })
     }
 
     /// The pass that draws of which kind the ground is, where it has none yet from the picture before.
     pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder, has_some: bool) -> RenderPass<'a> {
-        let load = if has_some { LoadOp::Load } else { LoadOp::Clear(0.0) };
+        let load = if has_some { LoadOp::Load } else { LoadOp::Clear(HIDDEN) };
         encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("kinds"),
             depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Store)),
