@@ -19,14 +19,19 @@ use crate::gpu::context::Context;
 const SETS_PER_INSTANCE: u16 = 8;
 
 /// The corners of the triangles of an instance, list by list and blade by blade, for blades of so many rows: two triangles
-/// between a row and the next.
+/// between a row and the next, but one before the last, in which a blade ends in a point.
 pub(super) fn corners(rows: [u32; LISTS]) -> Vec<u16> {
-    let of_list = |rows: u16| {
-        let first_of = move |blade: u16| (0..rows.saturating_sub(1)).map(move |row| 2 * (blade * rows + row));
-        (0..SETS_PER_INSTANCE * BLADES as u16).flat_map(first_of)
+    let of_blade = |rows: u16, blade: u16| {
+        let triangles = move |row: u16| {
+            let both = [[0, 1, 2], [2, 1, 3]];
+            let kept = if row + 2 == rows { 1 } else { 2 };
+            both.into_iter().take(kept).flatten().map(move |corner| 2 * (blade * rows + row) + corner)
+        };
+        (0..rows.saturating_sub(1)).flat_map(triangles)
     };
-    let firsts = rows.into_iter().flat_map(|rows| of_list(rows as u16));
-    firsts.flat_map(|first| [0, 1, 2, 2, 1, 3].map(|corner| first + corner)).collect()
+    let blades = 0..SETS_PER_INSTANCE * BLADES as u16;
+    let of_list = |rows: u32| blades.clone().flat_map(move |blade| of_blade(rows as u16, blade));
+    rows.into_iter().flat_map(of_list).collect()
 }
 
 /// Where a list starts and where it ends, each a number that all vertices share.
@@ -75,18 +80,19 @@ mod tests {
         let rows = [20, 3, 0];
         let corners = corners(rows);
         let blades = usize::from(SETS_PER_INSTANCE) * BLADES as usize;
-        assert_eq!(corners.len(), blades * 6 * (19 + 2));
-        let (near, middle) = corners.split_at(blades * 6 * 19);
+        assert_eq!(corners.len(), blades * 3 * (37 + 3));
+        let (near, middle) = corners.split_at(blades * 3 * 37);
         for (list, rows) in [(near, 20), (middle, 3)] {
             for (number, triangle) in list.chunks_exact(3).enumerate() {
-                let blade = number / (2 * (rows - 1));
+                let blade = number / (2 * rows - 3);
                 assert!(triangle.iter().all(|corner| usize::from(*corner) / (2 * rows) == blade));
                 let row = |corner: u16| usize::from(corner) % (2 * rows) / 2;
                 let [least, most] =
                     [triangle.iter().min(), triangle.iter().max()].map(|at| row(*at.expect("three")));
                 assert_eq!(most - least, 1, "{triangle:?}");
             }
-            assert_eq!(usize::from(*list.iter().max().expect("some")), 2 * rows * blades - 1);
+            // The last blade's point is the first of its last two vertices, which lie in one place.
+            assert_eq!(usize::from(*list.iter().max().expect("some")), 2 * rows * blades - 2);
         }
     }
 }

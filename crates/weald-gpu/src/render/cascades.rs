@@ -24,7 +24,7 @@ const STRIDES: f32 = 8.0;
 
 /// Metres by which the point moves from which is chosen what all but the last hold, and how finely; among trees, whose shadows
 /// would leap, it is the camera's.
-const EYE_STRIDES: [f32; CASCADES - 1] = [1.0, 8.0, 32.0];
+const EYE_STRIDES: [f32; CASCADES - 1] = [2.0, 8.0, 32.0];
 
 /// Share by which the last is wider than the landscape.
 const MARGIN: f32 = 1.02;

@@ -1,8 +1,8 @@
 // Which sets of grass are drawn where it is looked at, and how finely: the twin of choice.rs, with the same names.
 
 // Distances in metres up to which blades have their finest and middle shapes.
-const NEAR = 9.0;
-const MIDDLE = 28.0;
+const NEAR = 4.5;
+const MIDDLE = 14.0;
 
 // Lists by distance.
 const LISTS = 3u;

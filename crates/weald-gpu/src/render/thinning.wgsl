@@ -10,17 +10,25 @@ const THINNING = 1.15;
 // Most times as broad blades become where there are fewer of them.
 const BROADEST = 2.6;
 
-// Angle of a pixel up to which distances count as they are for blades, and most times as far away as they count.
+// Angle of a pixel for which distances count as they are for blades, and how many times as far away as they are they count at
+// least and at most.
 const GRASS_PIXEL = 1e-3;
+const FINEST = 0.5;
 const COARSEST = 2.0;
 
-// A distance as it counts for blades: as many times farther as pixels are larger than that.
+// How many times as far away as they are blades count: as many as pixels are larger.
+fn coarser() -> f32 {
+    return clamp(frame.eye.w / GRASS_PIXEL, FINEST, COARSEST);
+}
+
+// A distance as it counts for the shape of blades.
 fn counted(distance: f32) -> f32 {
-    return distance * clamp(frame.eye.w / GRASS_PIXEL, 1.0, COARSEST);
+    return distance * coarser();
 }
 
 fn share(distance: f32) -> f32 {
-    let thinned = pow(WHOLE / max(counted(distance), WHOLE), THINNING);
+    let larger = max(coarser(), 1.0);
+    let thinned = pow(WHOLE / max(larger * sqrt(larger) * distance, WHOLE), THINNING);
     return thinned * clamp((FARTHEST - distance) / (0.35 * FARTHEST), 0.0, 1.0);
 }
 

@@ -1,7 +1,7 @@
 //! Which sets of a meadow are drawn, and how finely: what a device chooses anew for each picture.
 //!
 //! ```text
-//! share of the sets that stand at distance d     (W / max(c d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
+//! share of the sets that stand at distance d     (W / max(c^1.5 d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
 //! height share of a set of rank r                clamp((1.25 share - r) / 0.25, 0, 1)
 //! ```
 //!
@@ -10,19 +10,20 @@
 //! blades, of which none is drawn much thinner than a pixel, were a pale coat. A set whose turn it is to be left out sinks
 //! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
 //! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
-//! second row has slid onto its neighbour, so that the blade is that of the next level already. Levels end c times as near:
-//! what a pixel does not show is not drawn. Nor is a set that ground hides, which is looked for at a few places on the way
-//! to it. A device does the same in `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so
-//! that a picture is the same each time.
+//! second row has slid onto its neighbour, so that the blade is that of the next level already. A level ends where the bends of
+//! the next are two pixels off, so the nearer the larger pixels are: what a pixel does not show is not drawn. Nor is a set that
+//! ground hides, which is looked for at a few places on the way to it. A device does the same in `meadow.wgsl`, which has
+//! the same names; it keeps each list in the order of the sets, so that a picture is the same each time.
 
 use super::blade::{Set, rows};
 use super::species::Species;
 use weald_engine::uniform;
 
-/// Distances in metres up to which blades have their finest and middle shapes, and beyond which there is none.
-pub const NEAR: f32 = 9.0;
+/// Distances in metres up to which blades have their finest and middle shapes where pixels are of [`PIXEL`], and beyond which there
+/// is none.
+pub const NEAR: f32 = 4.5;
 /// See [`NEAR`].
-pub const MIDDLE: f32 = 28.0;
+pub const MIDDLE: f32 = 14.0;
 /// See [`NEAR`].
 pub const FARTHEST: f32 = 96.0;
 
@@ -42,11 +43,12 @@ const SINKING: f32 = 0.25;
 /// Share of a list's farthest distance at which its rows begin to slide.
 const SLIDE: f32 = 0.6;
 
-/// Angle of a pixel in radians up to which distances count as they are for the shape of blades: that of a picture of 1,150
-/// pixels across for 60°.
+/// Angle of a pixel in radians for which distances count as they are for the shape of blades: that of a picture of 1,150 pixels
+/// across for 60°.
 const PIXEL: f32 = 1e-3;
 
-/// Most times as far away as they are blades count: those of a small picture bend too.
+/// How many times as far away as they are blades count at least, and at most: those of a small picture bend too.
+const FINEST: f32 = 0.5;
 const COARSEST: f32 = 2.0;
 
 /// Places between the eye and a set at which ground may hide it.
@@ -152,10 +154,10 @@ impl Choice {
     }
 }
 
-/// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians,
-/// by which sets become fewer as well.
+/// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians;
+/// sets become fewer as well where that is more than once.
 pub fn coarser(pixel_angle: f32) -> f32 {
-    (pixel_angle / PIXEL).clamp(1.0, COARSEST)
+    (pixel_angle / PIXEL).clamp(FINEST, COARSEST)
 }
 
 /// Metres above its root that no blade of a species exceeds, nor lies aside of it.
@@ -170,7 +172,8 @@ pub fn reach_of_blades(species: &Species) -> f32 {
 
 /// How many of the sets stand at a distance, where pixels are so many times as large ([`coarser`]).
 pub fn share(distance: f32, coarser: f32) -> f32 {
-    let thinned = libm::powf(WHOLE / (coarser * distance).max(WHOLE), THINNING);
+    let larger = coarser.max(1.0);
+    let thinned = libm::powf(WHOLE / (larger * larger.sqrt() * distance).max(WHOLE), THINNING);
     thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
 }
 
@@ -232,8 +235,9 @@ mod tests {
     fn fewer_sets_stand_where_pixels_are_larger() {
         for at in [20.0, 30.0, 50.0] {
             let fewer = share(at, 2.0) / share(at, 1.0);
-            assert!((0.44..0.46).contains(&fewer), "at {at} m: {fewer}");
-            assert_eq!(share(4.9, 2.0), 1.0, "near by all stand");
+            assert!((0.29..0.31).contains(&fewer), "at {at} m: {fewer}");
+            assert_eq!(share(3.5, 2.0), 1.0, "near by all stand");
+            assert_eq!(share(at, 0.5), share(at, 1.0), "no more than all");
         }
     }
 
@@ -287,6 +291,29 @@ mod tests {
             assert!(farthest <= reach_of_blades(species), "{}: {farthest} m", species.name);
             assert!(3.0 * farthest > reach_of_blades(species), "{}: {farthest} m is far less", species.name);
         }
+    }
+
+    #[test]
+    fn a_level_ends_where_the_bends_of_the_next_are_two_pixels_off() {
+        for (level, end) in [(1, NEAR), (2, MIDDLE)] {
+            let pieces = ROWS[level] - 1;
+            let mut farthest: Vec<_> = (0..401).map(|seed| farthest_off(seed, pieces)).collect();
+            farthest.sort_unstable_by(f32::total_cmp);
+            let pixels = farthest[200] / (end * PIXEL);
+            assert!((1.7..2.2).contains(&pixels), "level {level}: {} m, {pixels} pixels", farthest[200]);
+        }
+    }
+
+    /// How far a blade of ryegrass lies off so many straight pieces at most, half-way along one.
+    fn farthest_off(seed: u32, pieces: u32) -> f32 {
+        let tuft = Set { soil: 0.6, light: 0.8, level: 4.0, cut: 1.0, trodden: 0.0, seed };
+        let blade = Blade::of(&SPECIES[0], &tuft, seed % BLADES, Bend::Total);
+        let off = |piece: u32| {
+            let [begin, middle, end] =
+                [0.0, 0.5, 1.0].map(|at| blade.vertex((piece as f32 + at) / pieces as f32, 0.0).place);
+            length([0, 1, 2].map(|axis| middle[axis] - 0.5 * (begin[axis] + end[axis])))
+        };
+        (0..pieces).map(off).fold(0.0, f32::max)
     }
 
     #[test]
