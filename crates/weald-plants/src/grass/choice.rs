@@ -19,8 +19,8 @@ use super::blade::{Set, rows};
 use super::species::Species;
 use weald_engine::uniform;
 
-/// Distances in metres up to which blades have their finest and middle shapes where pixels are of [`PIXEL`], and beyond which there
-/// is none.
+/// Distances in metres up to which blades have their finest and middle shapes where pixels are of a thousandth of a radian, and
+/// beyond which there is none.
 pub const NEAR: f32 = 4.5;
 /// See [`NEAR`].
 pub const MIDDLE: f32 = 14.0;
