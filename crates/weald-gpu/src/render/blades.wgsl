@@ -33,7 +33,7 @@ fn leaf(list: u32, ends: ListEnds, vertex_number: u32, instance_number: u32) -> 
     let slide = row_slide(list, counted(length(lit.root - frame.moment.yzw)));
     let row = vertex / 2u;
     let along = (f32(row) - f32(row % 2u) * slide) / f32(choice.rows[list] - 1u);
-    // A blade ends in a point.
+    // A blade ends in a point, those too that taper less: their tips are thinner than a pixel, and so are not two corners.
     let side = select(f32(vertex % 2u) * 2.0 - 1.0, 0.0, row + 1u == choice.rows[list]);
     let here = swayed(blade, vertex_of(blade, along, side), vec2<f32>(lit.push.x, -lit.push.y));
     let point = lit.root + vec3<f32>(here.place.x, -here.place.z, here.place.y * lit.tall - 0.02);

@@ -8,7 +8,7 @@
 const NO_CLOUDS_DRAWN = -1.0;
 
 // One block in so many is lit anew whatever its turn: what moves across the picture as fast as turns do would never be.
-const ALSO_DUE = 12u;
+const ALSO_DUE = 8u;
 
 // By which share of its distance to the base the eye may have moved.
 const SAME_EYE = 0.01;

@@ -104,7 +104,7 @@ fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
 
 // Corners of the triangles of an instance, as `blades.rs` has them.
 fn corners_of(list: u32) -> u32 {
-    return SETS_PER_INSTANCE * BLADES * 3u * (2u * max(choice.rows[list], 2u) - 3u);
+    return SETS_PER_INSTANCE * BLADES * 3u * (max(2u * choice.rows[list], 3u) - 3u);
 }
 
 // One workgroup, of which each thread sums a stretch.

@@ -1,12 +1,13 @@
 //! Land and sea that go on to the horizon: as the ray-marched view has them, and without an end.
 
+use crate::flip::flip;
 use crate::marched::{PIXELS, distances_of};
 use crate::programs::gpu;
 use crate::render::{magenta, renderer};
-use crate::scenes::{above, lakes, mountains, view};
+use crate::scenes::{above, lakes, mountains, options, view};
 use weald::Landscape;
 use weald::picture::{Around, Camera, LitScene, RayMarcher, View};
-use weald_gpu::TestLook;
+use weald_gpu::{Renderer, TestLook};
 
 /// A sun overhead, which throws no shadows: the march knows none of those that the ground around throws.
 fn open() -> View {
@@ -48,6 +49,29 @@ fn what_goes_on_to_the_horizon_looks_as_the_ray_marched_view_has_it() {
             let (mean, worst) = distances_of(&gpu, &marcher);
             assert!(mean < 0.015 && worst < 0.05, "camera {number}: mean {mean}, one in twenty {worst}");
         }
+    }
+}
+
+#[test]
+fn the_sea_beyond_the_border_is_found_with_one_sample_as_with_four() {
+    let Some(gpu) = gpu() else { return };
+    let scene = LitScene::new(&open(), &coast()).expect("a scene");
+    let drawn = |samples: u32, camera: &Camera| {
+        let mut renderer = Renderer::new(&gpu, &scene, options(samples)).expect("it can be drawn");
+        renderer.render(camera).expect("drawn")
+    };
+    // Of far water, and of water that is close by.
+    let from_above = above(&scene, [1600.0, 3100.0], 900.0, 25.0, 180.0);
+    let sea_level = coast().domain.sea_level.expect("a sea") as f32;
+    let places =
+        (0..1000_u16).map(|number| [f64::from(number % 20) * 200.0, 3300.0 + 50.0 * f64::from(number / 20)]);
+    let mut tops = places.map(|place| scene.above_ground(place, 0.0));
+    let [x, y, _] = tops.find(|top| top[2] < sea_level + 0.5).expect("some sea beyond the border");
+    let low = from_above.at([x, y, sea_level + 12.0]);
+    for camera in [from_above, low] {
+        let found = flip(&drawn(1, &camera), &drawn(4, &camera)).mean;
+        // 0.008 and 0; were none found, 0.068 and 0.335.
+        assert!(found < 0.03, "{found}");
     }
 }
 

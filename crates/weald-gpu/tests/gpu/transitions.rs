@@ -2,7 +2,8 @@
 //!
 //! Seen to fail, on llvmpipe (left of the change over the whole path, against 0.07 to 0.09 of grass and 0.035 of ground):
 //! where sets vanish instead of sinking, 0.50 at 15 m, 0.52 at 27 m and 0.44 at 60 m; where rows of blades do not slide
-//! together before a coarser list begins, 0.38 at 9 m and 0.48 at 28 m; where the ground's vertices do not slide, 0.131.
+//! together before a coarser list begins, 0.38 at 9 m and 0.48 at 28 m, where lists end for pixels as small
+//! as a telescope's; where the ground's vertices do not slide, 0.131.
 
 use crate::flip::{flip, reduced};
 use crate::programs::gpu;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with W = 10 m, up to which all stand, F = 96 m, beyond which none does, and c = 1 but where pixels are larger than a
-//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`]). With as many sets in them,
+//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`], but never less than 1). With as many sets in them,
 //! blades, of which none is drawn much thinner than a pixel, were a pale coat. A set whose turn it is to be left out sinks
 //! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
 //! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every

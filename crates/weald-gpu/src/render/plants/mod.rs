@@ -1,7 +1,7 @@
 //! Scattered plants on a device: chosen there for the camera and for each cascade of the sun, and drawn leaf by leaf.
 //!
 //! A set of plants is a mesh of limbs (`weald::grow::ifs::limbs`) and 32 bytes per plant. Each picture, passes over all
-//! plants sort them, for each view, into lists by how high they are seen, in pixels (`choose.wgsl`): a list for each
+//! plants sort them, for each view that is drawn, into lists by how high they are seen, in pixels (`choose.wgsl`): a list for each
 //! level of detail, one for each transition between two, in which the leaves of both are drawn, the ones becoming
 //! broader and the others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb
 //! (`leaves.wgsl`).
