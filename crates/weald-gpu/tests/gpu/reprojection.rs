@@ -45,6 +45,11 @@ impl Shown {
     }
 }
 
+/// The cameras of a movement, of which each picture is a step.
+fn path(camera: impl Fn(f32) -> Camera) -> Vec<Camera> {
+    (0..PICTURES).map(|number| camera(f32::from(number))).collect()
+}
+
 /// Bytes that differ, and by how much at most.
 fn differing(a: &Image, b: &Image) -> (usize, u8) {
     let differences =
@@ -55,11 +60,8 @@ fn differing(a: &Image, b: &Image) -> (usize, u8) {
 #[test]
 fn a_camera_that_moves_sees_what_a_picture_shows_that_is_lit_anew() {
     let Some(mut shown) = Shown::of(&lakes()) else { return };
-    let at = |number: u16| {
-        let step = f32::from(number);
-        above(&shown.scene, [1600.0 + 6.0 * f64::from(step), 1900.0], 300.0, 25.0, 0.4 * step)
-    };
-    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let cameras =
+        path(|step| above(&shown.scene, [1600.0 + 6.0 * f64::from(step), 1900.0], 300.0, 25.0, 0.4 * step));
     let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     // Some light is that of pictures before, and nothing is seen of it.
@@ -75,11 +77,8 @@ fn a_camera_that_moves_sees_what_a_picture_shows_that_is_lit_anew() {
 fn ground_that_comes_out_from_behind_blades_has_the_light_of_what_is_beside_it() {
     let Some(mut shown) = Shown::of(&meadow()) else { return };
     // A person who walks and turns by half a degree a picture.
-    let at = |number: u16| {
-        let step = f32::from(number);
-        above(&shown.scene, [60.0 + 0.14 * f64::from(step), 60.0], 1.7, 8.0, 40.0 + 0.5 * step)
-    };
-    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let cameras =
+        path(|step| above(&shown.scene, [60.0 + 0.14 * f64::from(step), 60.0], 1.7, 8.0, 40.0 + 0.5 * step));
     let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
@@ -104,8 +103,8 @@ fn a_camera_that_stands_still_keeps_a_sharp_picture() {
 #[test]
 fn a_camera_that_comes_to_rest_has_a_sharp_picture_once_its_view_is_settled() {
     let Some(mut shown) = Shown::of(&lakes()) else { return };
-    let at = |number: u16| above(&shown.scene, [1600.0 + 6.0 * f64::from(number), 1900.0], 300.0, 25.0, 0.0);
-    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let cameras =
+        path(|step| above(&shown.scene, [1600.0 + 6.0 * f64::from(step), 1900.0], 300.0, 25.0, 0.0));
     let last = cameras[usize::from(PICTURES) - 1];
     for (number, camera) in cameras.iter().enumerate() {
         shown.draw(camera);
@@ -145,11 +144,8 @@ fn clouds_before_a_camera_that_moves_are_those_of_a_picture_that_is_lit_anew() {
     let cloudy = View { clouds: 0.4, around: Some(Around::Horizon), ..view() };
     let Some(mut shown) = Shown::by(&cloudy, &lakes()) else { return };
     // Half a degree and some metres a picture, with much sky.
-    let at = |number: u16| {
-        let step = f32::from(number);
-        above(&shown.scene, [1600.0 + 3.0 * f64::from(step), 1900.0], 30.0, -12.0, 0.5 * step)
-    };
-    let cameras: Vec<_> = (0..PICTURES).map(at).collect();
+    let cameras =
+        path(|step| above(&shown.scene, [1600.0 + 3.0 * f64::from(step), 1900.0], 30.0, -12.0, 0.5 * step));
     let last = cameras[usize::from(PICTURES) - 1];
     let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;

@@ -8,11 +8,8 @@ pub(super) const VIEWS: usize = 1 + CASCADES;
 /// Lists of a view: a level of detail alone, or with what it passes into.
 pub(super) const LISTS: usize = 2 * weald::grow::ifs::limbs::LEVELS;
 
-/// Plants of each view whose limbs are carried once for all of their leaves, as the shader has it.
+/// Plants of each view whose limbs are carried once for all of their leaves, as the shader has it: views that have none are the last.
 pub(super) const SEATS: [u32; VIEWS] = [96, 48, 48, 0, 0];
-
-/// Cascades whose plants have some, from the first on.
-pub(super) const SEATED_CASCADES: usize = 2;
 
 /// The first list of a view whose plants have no seats of their own, as the shader has it.
 pub(super) const SEATED_LISTS: usize = 6;

@@ -27,7 +27,7 @@ use super::cascades::CASCADES;
 use super::layouts::Layouts;
 use crate::gpu::Gpu;
 use batch::Batch;
-use lists::{LISTS, LISTS_OF_FINEST, SEATED_CASCADES, SEATED_LISTS, SEATS};
+use lists::{LISTS, LISTS_OF_FINEST, SEATED_LISTS, SEATS};
 use mesh::DRAW;
 use pipelines::Pipelines;
 use wood::{REACH, Wood};
@@ -88,9 +88,10 @@ impl Plants {
         groups: [&BindGroup; 2],
         stale: [bool; CASCADES],
     ) {
-        let drawn = |cascades: &[bool]| cascades.iter().map(|&is_stale| u32::from(is_stale)).sum::<u32>();
-        let views = 1 + drawn(&stale);
-        let carried = 2 + drawn(&stale[..SEATED_CASCADES]);
+        let drawn = stale.iter().zip(&SEATS[1..]).filter(|(is_stale, _)| **is_stale);
+        let views = 1 + drawn.clone().count() as u32;
+        // The camera's seats, those that plants share, and those of cascades.
+        let carried = 2 + drawn.filter(|(_, seats)| **seats > 0).count() as u32;
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
         for (at, group) in (0..).zip(groups) {
             pass.set_bind_group(at, group, &[]);
