@@ -64,12 +64,14 @@ mod woods;
 pub use albedo::albedo;
 pub use camera::Camera;
 pub use follow::Follow;
+pub use haze::Haze;
 pub use keys::{Around, GroundColour, View};
 pub use lit_scene::LitScene;
 pub use maps::{SceneTexture, TextureKind};
 pub(crate) use refined::most_cells;
 pub use rim::Rim;
 pub use scene::RayMarcher;
+pub use surroundings::HeightsBeyond;
 pub use terrain::Ray;
 pub use woods::{SPACING as SPACING_OF_TREES, Tree};
 

@@ -4,7 +4,8 @@
 //! that it neither turns nor grows with the camera; its middle moves by whole texels, so that the edges of shadows stay
 //! where they are (Valient 2008, "Stable rendering of cascaded shadow maps", Shader X6). What differs: it moves by an eighth
 //! of its side at once, and what is drawn into it is chosen from a point that moves by steps as well, so that a cascade is
-//! drawn once for many pictures of a camera that moves. The last holds all.
+//! drawn once for many pictures of a camera that moves. What the camera sees begins at the nearest ground in sight: steps are a
+//! share of that distance, and a cascade that ends before it is nowhere. The last holds all.
 
 use weald::picture::Camera;
 
@@ -22,9 +23,22 @@ const REACHES: [f32; CASCADES - 1] = [36.0, 300.0, 2400.0];
 /// How many times the middle of a cascade moves along its side.
 const STRIDES: f32 = 8.0;
 
-/// Metres by which the point moves from which is chosen what all but the last hold, and how finely; among trees, whose shadows
-/// would leap, it is the camera's.
+/// Metres by which the point moves at least from which is chosen what all but the last hold, and how finely; and the share of the
+/// distance to the nearest ground in sight.
 const EYE_STRIDES: [f32; CASCADES - 1] = [2.0, 8.0, 32.0];
+const EYE_STRIDE: f32 = 1.0 / 16.0;
+
+/// Metres that trees are high. Among them, where their shadows would leap, the point moves by so little that none is seen higher
+/// or lower by more than so many pixels; where that is less than so many metres, it is the camera's.
+pub(super) const TREE: f32 = 25.0;
+const TREE_PIXELS: f32 = 1.0;
+const LEAST_STRIDE: f32 = 0.25;
+
+/// A cascade comes in where the nearest ground in sight lies between so many times its reach: first not at all, then wholly.
+const COMES_IN: [f32; 2] = [1.25, 1.0];
+
+/// The square of a cascade that is not there: nowhere.
+const NOWHERE: [f32; 4] = [1e9, 1e9, 1.0, 1.0];
 
 /// Share by which the last is wider than the landscape.
 const MARGIN: f32 = 1.02;
@@ -41,6 +55,20 @@ pub(super) struct Cascades {
     pub(super) squares: [[f32; 4]; CASCADES],
     /// From where is chosen what all but the last hold; with how far the eye is from there at most.
     pub(super) detail_points: [[f32; 4]; CASCADES - 1],
+    /// How much of each but the last counts: nothing of those that end before the nearest ground in sight.
+    pub(super) shares: [f32; CASCADES - 1],
+}
+
+/// What cascades are chosen for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ViewedFrom<'a> {
+    pub(super) camera: &'a Camera,
+    /// The point from which detail is chosen.
+    pub(super) detail_from: [f32; 3],
+    /// Metres from there to the nearest ground in sight, with trees.
+    pub(super) nearest: f32,
+    /// The angle of a pixel where trees are drawn one by one.
+    pub(super) trees: Option<f32>,
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -68,12 +96,7 @@ fn extent(of: &Box3, along: [f32; 3]) -> [f32; 2] {
 
 impl Cascades {
     /// For a sun in a direction and a landscape within a box, around which ground goes on or not.
-    pub(super) fn new(
-        sun: [f32; 3],
-        (camera, detail_from, is_among_trees): (&Camera, [f32; 3], bool),
-        landscape: &Box3,
-        has_horizon: bool,
-    ) -> Self {
+    pub(super) fn new(sun: [f32; 3], view: &ViewedFrom<'_>, landscape: &Box3, has_horizon: bool) -> Self {
         let [right, up] = across(sun);
         let around = if has_horizon { REACHES[CASCADES - 2] } else { 0.0 };
         let [low, high] = extent(landscape, sun);
@@ -81,19 +104,22 @@ impl Cascades {
         let whole = [extent(landscape, right), extent(landscape, up)];
         let [middle_x, middle_y] = whole.map(|[low, high]| 0.5 * (low + high));
         let [half_x, half_y] = whole.map(|[low, high]| 0.5 * MARGIN * (high - low).max(1e-3));
-        let near = REACHES.map(|reach| square(camera, [right, up], reach));
-        let squares = std::array::from_fn(|cascade| {
-            near.get(cascade).copied().unwrap_or([middle_x, middle_y, half_x, half_y])
+        let shares = REACHES.map(|reach| {
+            let [none, whole] = COMES_IN.map(|times| times * reach);
+            ((none - view.nearest) / (none - whole)).clamp(0.0, 1.0)
         });
-        let detail_points = EYE_STRIDES.map(|stride| {
-            if is_among_trees {
-                let [x, y, z] = detail_from;
-                return [x, y, z, 0.0];
-            }
-            let [x, y, z] = detail_from.map(|at| (at / stride).round() * stride);
-            [x, y, z, 0.5 * stride * 3.0_f32.sqrt()]
+        let squares = std::array::from_fn(|cascade| match REACHES.get(cascade) {
+            None => [middle_x, middle_y, half_x, half_y],
+            Some(_) if shares[cascade] <= 0.0 => NOWHERE,
+            Some(&reach) => square(view.camera, [right, up], reach),
         });
-        Self { right, up, depths: [high, (high - low).max(1e-3)], squares, detail_points }
+        let detail_points = std::array::from_fn(|cascade| view.detail_point(cascade));
+        Self { right, up, depths: [high, (high - low).max(1e-3)], squares, detail_points, shares }
+    }
+
+    /// Whether a cascade is not there: what it would hold is not in sight.
+    pub(super) fn is_nowhere(&self, cascade: usize) -> bool {
+        self.squares[cascade] == NOWHERE
     }
 
     /// Metres of a texel of the last, which holds all.
@@ -106,6 +132,27 @@ impl Cascades {
     pub(super) fn column(&self, cascade: usize) -> Frustum {
         let [x, y, half_x, half_y] = self.squares[cascade];
         Frustum::between([self.right, self.up], [[x - half_x, x + half_x], [y - half_y, y + half_y]])
+    }
+}
+
+impl ViewedFrom<'_> {
+    /// From where is chosen what a cascade holds, and how far that is from where it is looked at, at most.
+    fn detail_point(&self, cascade: usize) -> [f32; 4] {
+        let stride = self.stride(cascade);
+        let [x, y, z] = if stride < LEAST_STRIDE {
+            self.detail_from
+        } else {
+            self.detail_from.map(|at| (at / stride).round() * stride)
+        };
+        [x, y, z, if stride < LEAST_STRIDE { 0.0 } else { 0.5 * stride * 3.0_f32.sqrt() }]
+    }
+
+    /// Metres by which that point moves: a power of two, so that it rests while the nearest ground comes nearer.
+    fn stride(&self, cascade: usize) -> f32 {
+        let stride = (EYE_STRIDE * self.nearest).max(EYE_STRIDES[cascade]);
+        let among_trees = |angle: f32| TREE_PIXELS * angle * self.nearest * self.nearest / TREE;
+        let stride = self.trees.map_or(stride, |angle| among_trees(angle).min(stride));
+        stride.clamp(0.5 * LEAST_STRIDE, EYE_STRIDE * REACHES[CASCADES - 2]).log2().floor().exp2()
     }
 }
 
@@ -138,12 +185,17 @@ mod tests {
         LitScene::new(&View::default(), &landscape).expect("a scene")
     }
 
+    /// What a camera sees that stands on the ground.
+    fn viewed(camera: &Camera) -> ViewedFrom<'_> {
+        ViewedFrom { camera, detail_from: camera.eye, nearest: 1.0, trees: None }
+    }
+
     #[test]
     fn a_moving_and_turning_camera_moves_cascades_by_whole_texels_and_leaves_their_size() {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
         let camera = Camera::looking([50.0, -90.0, 30.0], [0.6, 0.8, 0.0], [0.5, 0.3]);
-        let first = Cascades::new(scene.sun(), (&camera, camera.eye, false), &landscape, false);
+        let first = Cascades::new(scene.sun(), &viewed(&camera), &landscape, false);
         let mut moved = 0;
         for step in 1..40_u16 {
             let step = f32::from(step);
@@ -153,7 +205,7 @@ mod tests {
                 [turn.cos(), turn.sin(), 0.0],
                 [0.5, 0.3],
             );
-            let next = Cascades::new(scene.sun(), (&camera, camera.eye, false), &landscape, false);
+            let next = Cascades::new(scene.sun(), &viewed(&camera), &landscape, false);
             assert_eq!(next.squares[CASCADES - 1], first.squares[CASCADES - 1], "the last holds all, always");
             for (a, b) in first.squares.iter().zip(&next.squares).take(CASCADES - 1) {
                 assert_eq!(a[2], b[2]);
@@ -166,10 +218,41 @@ mod tests {
     }
 
     #[test]
+    fn cascades_come_in_with_the_ground_in_sight_and_trees_move_them_by_pixels() {
+        let scene = scene();
+        let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
+        let camera = Camera::looking([50.3, -90.1, 730.7], [0.6, 0.8, 0.0], [0.5, 0.3]);
+        let of = |nearest: f32, trees: Option<f32>| {
+            let view = ViewedFrom { nearest, trees, ..viewed(&camera) };
+            Cascades::new(scene.sun(), &view, &landscape, false)
+        };
+        for (cascade, reach) in REACHES.into_iter().enumerate() {
+            let shares = [0.5, 1.0, 1.125, 1.25, 40.0].map(|times| of(times * reach, None).shares[cascade]);
+            assert_eq!(shares, [1.0, 1.0, 0.5, 0.0, 0.0]);
+            assert!(!of(reach, None).is_nowhere(cascade) && of(1.3 * reach, None).is_nowhere(cascade));
+        }
+        let off = |nearest: f32, trees: Option<f32>| of(nearest, trees).detail_points.map(|point| point[3]);
+        // Among trees the point is the camera's; 700 m from them they may be seen a pixel of 1 mrad higher or lower.
+        assert_eq!(off(50.0, Some(1e-3)), [0.0; 3]);
+        assert_eq!(off(700.0, Some(1e-3))[2], 8.0 * 3.0_f32.sqrt());
+        assert!(off(700.0, Some(1e-5)).iter().all(|&off| off == 0.0), "through a telescope");
+        assert_eq!(off(1.0, None), [1.0, 4.0, 16.0].map(|half| half * 3.0_f32.sqrt()));
+        for nearest in [30.0, 400.0, 1500.0, 9000.0] {
+            for [point, off] in
+                of(nearest, Some(1e-3)).detail_points.map(|[x, y, z, off]| [[x, y, z, 0.0], [off; 4]])
+            {
+                let away =
+                    [0, 1, 2].map(|axis| (point[axis] - camera.eye[axis]).powi(2)).iter().sum::<f32>().sqrt();
+                assert!(away <= off[0] + 1e-3, "{away} m off, at most {}", off[0]);
+            }
+        }
+    }
+
+    #[test]
     fn the_last_cascade_holds_every_corner_and_depths_begin_at_the_sun() {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
-        let cascades = Cascades::new(scene.sun(), (&scene.camera(), [0.0; 3], false), &landscape, false);
+        let cascades = Cascades::new(scene.sun(), &viewed(&scene.camera()), &landscape, false);
         let [x, y, half_x, half_y] = cascades.squares[CASCADES - 1];
         for bits in 0..8_usize {
             let corner: [f32; 3] = std::array::from_fn(|axis| landscape[bits >> axis & 1][axis]);

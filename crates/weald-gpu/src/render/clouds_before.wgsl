@@ -1,6 +1,6 @@
 // Light of clouds that a window's picture before has, taken for the next one, as `reprojection.wgsl` takes that of the ground:
-// from where the point at which a ray meets the base of clouds was seen then. Clouds do not move, and what is above their base
-// lies off by less than a pixel while the eye moves little.
+// from where the point at which a ray meets the lower part of clouds was seen then. Clouds do not move, and what is above or below
+// that lies off by less than a pixel while the eye moves little for its distance.
 
 @group(2) @binding(9) var clouds_light_before: texture_2d<f32>;
 
@@ -10,8 +10,13 @@ const NO_CLOUDS_DRAWN = -1.0;
 // One block in so many is lit anew whatever its turn: what moves across the picture as fast as turns do would never be.
 const ALSO_DUE = 8u;
 
-// By which share of its distance to the base the eye may have moved.
-const SAME_EYE = 0.01;
+// The share of their height at which a ray is said to meet clouds.
+const MET_AT = 0.25;
+
+// Pixels by which their base and their tops may lie off that, by the mean of both; and the share of the height up to there by which
+// the eye may have moved, since haze before them changes.
+const OFF_AT_MOST = 1.0;
+const SAME_EYE = 0.1;
 
 // Whether a texel is lit anew.
 fn are_clouds_due(position: vec2<f32>) -> bool {
@@ -23,11 +28,14 @@ fn are_clouds_due(position: vec2<f32>) -> bool {
 
 // Where clouds in a direction were in the picture before, in texels; outside of it where they were not.
 fn clouds_place_before(direction: vec3<f32>) -> vec2<f32> {
+    let thick = CLOUDS_THICK * scene.scale.y;
     let rise = scene.cloud_height.x - frame.eye.z;
-    let reach = rise / max(direction.z, 1e-5);
+    let reach = (rise + MET_AT * thick) / max(direction.z, 1e-5);
     let relative = direction * reach + frame.before_eye.xyz;
     let before = place_before(relative, textureDimensions(clouds_light_before));
-    let is_near = length(frame.before_eye.xyz) <= SAME_EYE * rise;
+    // Base and tops are seen turned by as much as the way of the eye is of their distances.
+    let off = 0.5 * length(frame.before_eye.xyz) * direction.z * thick / (max(rise, 1e-3) * (rise + thick));
+    let is_near = (off <= OFF_AT_MOST * frame.eye.w) & (length(frame.before_eye.xyz) <= SAME_EYE * (rise + MET_AT * thick));
     return select(vec2<f32>(-9.0), before.xy, is_near & (before.z > frame.forward.w) & (direction.z > 1e-3));
 }
 

@@ -148,6 +148,7 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
     let [x, y] = drawn.stand.place;
     let [near_x, near_y, near_z] = drawn.detail_from;
     let [across, down] = [0, 1].map(|axis| 2.0 * camera.half[axis] / size[axis] as f32);
+    let [a, b, c] = drawn.cascades.shares;
     let numbers = Numbers {
         eye: with(camera.eye, camera.pixel_angle(size[0] as usize)),
         forward: with(camera.forward, NEAREST),
@@ -160,7 +161,7 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
         sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
         cascades: drawn.cascades.squares,
         detail_points: drawn.cascades.detail_points,
-        woods: [drawn.woods, 0.0, 0.0, 0.0],
+        woods: [drawn.woods, a, b, c],
         stale: drawn.stale.map(f32::from),
         pixel: [across, down, 0.0, 0.0],
         before: drawn.before.map_or([[0.0; 4]; 4], |before| numbers_before(camera, before)),

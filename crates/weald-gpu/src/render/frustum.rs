@@ -1,6 +1,6 @@
 //! What a camera can see, as planes, and boxes around parts of the ground.
 
-use weald::picture::{Camera, SceneTexture};
+use weald::picture::{Camera, HeightsBeyond, SceneTexture};
 
 /// Least and greatest corner of a box, in metres.
 pub(crate) type Box3 = [[f32; 3]; 2];
@@ -63,12 +63,15 @@ pub(crate) struct Heights {
     base: f32,
     /// Metres by which heights may have risen or sunk.
     slack: f32,
-    /// Bounds of the heights beyond the border, and the cells within.
-    beyond: Option<([f32; 2], [f32; 2])>,
+    /// The heights beyond the border, and the cells within.
+    beyond: Option<(HeightsBeyond, [f32; 2])>,
 }
 
 /// Control points along the side of the smallest square.
 const SMALLEST: usize = 4;
+
+/// Squares along a side of those by which the bounds of a larger one are told: of fewer each would reach further beyond it.
+const ACROSS: usize = 4;
 
 impl Heights {
     /// Of a ground's control points, for cells of so many metres and a base.
@@ -81,9 +84,9 @@ impl Heights {
         Self { levels: coarser(finest), metres, base, slack: 0.0, beyond: None }
     }
 
-    /// The same, where ground between such heights goes on beyond so many cells.
+    /// The same, where ground of such heights goes on beyond so many cells.
     #[must_use]
-    pub(crate) fn with_beyond(self, heights: Option<[f32; 2]>, cells: [f32; 2]) -> Self {
+    pub(crate) fn with_beyond(self, heights: Option<HeightsBeyond>, cells: [f32; 2]) -> Self {
         Self { beyond: heights.map(|heights| (heights, cells)), ..self }
     }
 
@@ -115,7 +118,7 @@ impl Heights {
 
     /// The greatest height of all and of what goes on beyond the border.
     pub(crate) fn highest_around(&self) -> f32 {
-        self.beyond.map_or(self.highest(), |([_, high], _)| high.max(self.highest()))
+        self.beyond.map_or(self.highest(), |(beyond, _)| beyond.all[1].max(self.highest()))
     }
 
     /// The least height of all.
@@ -128,13 +131,14 @@ impl Heights {
         self.slack += metres;
     }
 
-    /// The box around a square of the ground and what is below it, from its corner as a place.
-    pub(crate) fn box_of(&self, corner: [f32; 2], side: f32) -> Box3 {
+    /// The least and the greatest height of a square of the ground, from its corner as a place.
+    pub(crate) fn bounds(&self, corner: [f32; 2], side: f32) -> [f32; 2] {
         // The four control points of a patch begin at the whole part of a place.
         let first = corner.map(|at| at.max(0.0) as usize / SMALLEST);
         let last = corner.map(|at| ((at + side).max(0.0) as usize + 3) / SMALLEST);
         let span = (last[0] - first[0]).max(last[1] - first[1]);
-        let level = ((span + 1).ilog2() as usize).min(self.levels.len() - 1);
+        let level =
+            (0..self.levels.len() - 1).find(|level| span >> level < ACROSS).unwrap_or(self.levels.len() - 1);
         let (columns, bounds) = &self.levels[level];
         let rows = bounds.len() / columns;
         let mut range = [f32::INFINITY, f32::NEG_INFINITY];
@@ -145,13 +149,26 @@ impl Heights {
         }
         if let Some((heights, cells)) = self.beyond {
             let leaves = |axis: usize| corner[axis] < 0.5 || corner[axis] + side > cells[axis] + 0.5;
-            range = if (0..2).any(leaves) { union(range, heights) } else { range };
+            let away =
+                |axis: usize| (0.5 - corner[axis] - side).max(corner[axis] - cells[axis] - 0.5).max(0.0);
+            let [low, high] = heights.all;
+            if away(0).hypot(away(1)) >= heights.far_from {
+                range = [low, heights.highest_far];
+            } else if (0..2).any(leaves) {
+                range = union(range, [low, high]);
+            }
         }
+        [range[0] - self.slack, range[1] + self.slack]
+    }
+
+    /// The box around such a square and what is below it.
+    pub(crate) fn box_of(&self, corner: [f32; 2], side: f32) -> Box3 {
+        let [low, high] = self.bounds(corner, side);
         let west = (corner[0] - 0.5) * self.metres[0];
         let north = (0.5 - corner[1]) * self.metres[1];
         [
-            [west, north - side * self.metres[1], self.base.min(range[0] - self.slack)],
-            [west + side * self.metres[0], north, range[1] + self.slack],
+            [west, north - side * self.metres[1], self.base.min(low)],
+            [west + side * self.metres[0], north, high],
         ]
     }
 }
@@ -210,12 +227,21 @@ mod tests {
         };
         let heights = Heights::new(&top, [2.0; 2], -5.0);
         assert_eq!((heights.highest(), heights.highest_around()), (100.0, 100.0));
-        let around = Heights::new(&top, [2.0; 2], -5.0).with_beyond(Some([-3.0, 140.0]), [37.0, 27.0]);
+        let beyond = HeightsBeyond { all: [-3.0, 140.0], highest_far: 120.0, far_from: 8.0 };
+        let around = Heights::new(&top, [2.0; 2], -5.0).with_beyond(Some(beyond), [37.0, 27.0]);
         assert_eq!(
             (around.highest(), around.highest_around()),
             (100.0, 140.0),
             "beyond the border it is higher"
         );
+        for (corner, bounds) in [
+            ([38.0, 4.0], [-3.0, 140.0]),
+            ([34.5, 4.0], [-3.0, 140.0]),
+            ([-12.0, -40.0], [-3.0, 120.0]),
+            ([46.0, 4.0], [-3.0, 120.0]),
+        ] {
+            assert_eq!(around.bounds(corner, 4.0), bounds, "{corner:?}");
+        }
         for (corner, side) in [([0.5, 0.5], 4.0), ([8.5, 16.5], 8.0), ([0.5, 0.5], 64.0), ([30.5, 20.5], 2.0)]
         {
             let [low, high] = heights.box_of(corner, side);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use weald::picture::LitScene;
 use wgpu::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, ColorWrites, CompareFunction,
-    FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout, PrimitiveState,
+    Face, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout, PrimitiveState,
     RenderPipeline, RenderPipelineDescriptor, ShaderModule, VertexBufferLayout, VertexState,
 };
 
@@ -76,6 +76,8 @@ struct Drawn<'a> {
     target: Option<ColorTargetState>,
     /// Whether it is kept, and how it is compared; `None` without depth.
     depth: Option<(bool, CompareFunction)>,
+    /// The faces of the ground that others hide: those that are seen from below.
+    hidden: Option<Face>,
 }
 
 /// What is laid over what is there, by its own share; the opacity below is kept as the pass says.
@@ -118,6 +120,7 @@ impl Parts<'_> {
             constants: &[],
             target: None,
             depth: Some((true, CompareFunction::Greater)),
+            hidden: Some(Face::Back),
         })
     }
 
@@ -133,6 +136,7 @@ impl Parts<'_> {
             constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has.horizon))],
             target: None,
             depth: Some((true, CompareFunction::Always)),
+            hidden: None,
         })
     }
 
@@ -148,6 +152,7 @@ impl Parts<'_> {
             constants: &[("HORIZON", 1.0)],
             target: None,
             depth: Some((true, compare)),
+            hidden: None,
         })
     }
 
@@ -162,6 +167,7 @@ impl Parts<'_> {
             constants: &[],
             target: Some(ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL }),
             depth: Some((true, CompareFunction::Always)),
+            hidden: None,
         })
     }
 
@@ -191,6 +197,7 @@ impl Parts<'_> {
             ],
             target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
             depth: Some((false, CompareFunction::Equal)),
+            hidden: None,
         })
     }
 
@@ -209,6 +216,7 @@ impl Parts<'_> {
                 write_mask: ColorWrites::ALL,
             }),
             depth: Some((false, CompareFunction::Always)),
+            hidden: None,
         })
     }
 
@@ -232,6 +240,7 @@ impl Parts<'_> {
             constants: &[("SAMPLED", f64::from(self.samples > 1))],
             target: Some(ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL }),
             depth: None,
+            hidden: None,
         })
     }
 
@@ -256,7 +265,7 @@ impl Parts<'_> {
                     compilation_options: PipelineCompilationOptions::default(),
                     buffers: drawn.vertex.1,
                 },
-                primitive: PrimitiveState::default(),
+                primitive: PrimitiveState { cull_mode: drawn.hidden, ..PrimitiveState::default() },
                 depth_stencil: drawn.depth.map(|(depth_write, compare)| depth_state(depth_write, compare)),
                 multisample: MultisampleState { count: drawn.samples, ..MultisampleState::default() },
                 fragment,

@@ -87,11 +87,16 @@ impl Lattice {
     }
 
     /// North-western corner of the largest square.
-    fn first_corner(&self) -> [f32; 2] {
+    pub(super) fn first_corner(&self) -> [f32; 2] {
         if self.around == 0 {
             return [0.5; 2];
         }
         [0.5 - 0.5 * Self::side(self.all_levels() - 1); 2]
+    }
+
+    /// Whether a square of such a corner has some ground.
+    pub(super) fn has_ground(&self, corner: [f32; 2]) -> bool {
+        self.around > 0 || (0..2).all(|axis| corner[axis] < self.cells[axis] + 0.5)
     }
 
     /// Whether a patch lies in part beyond the border, where ground goes on.
@@ -103,7 +108,7 @@ impl Lattice {
     }
 
     /// Cells along the side of a square.
-    fn side(level: usize) -> f32 {
+    pub(super) fn side(level: usize) -> f32 {
         SQUARE * spacing(level)
     }
 
@@ -144,11 +149,7 @@ impl Lattice {
 
 impl Selection<'_> {
     fn is_drawn(&self, corner: [f32; 2], side: f32) -> bool {
-        let inside = || (0..2).all(|axis| corner[axis] < self.lattice.cells[axis] + 0.5);
-        (self.lattice.around > 0 || inside()) && {
-            let box_of = self.heights.box_of(corner, side);
-            self.view.meets(&box_of)
-        }
+        self.lattice.has_ground(corner) && self.view.meets(&self.heights.box_of(corner, side))
     }
 
     fn square(&mut self, corner: [f32; 2], level: usize) {
@@ -176,7 +177,7 @@ mod tests {
 
     fn everything(cells: [f32; 2], from: Viewpoint) -> (Lattice, Vec<Patch>) {
         let lattice = Lattice::new(cells, [10.0; 2]);
-        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], (1.0, 10.0), |_| 1.0);
         let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         (lattice, patches)
     }
@@ -202,7 +203,7 @@ mod tests {
     #[test]
     fn ground_around_goes_on_for_seven_sides_and_covers_each_place_once() {
         let lattice = Lattice::new([150.0, 90.0], [10.0; 2]).with_horizon(true);
-        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], (1.0, 10.0), |_| 1.0);
         let from = Viewpoint { place: [70.0, 40.0], above: 30.0 };
         let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         let mut beyond = 0;

@@ -4,7 +4,7 @@ use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    ComputePipeline, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout,
+    ComputePipeline, Face, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout,
     PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPipeline, RenderPipelineDescriptor,
     ShaderModule, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
@@ -112,6 +112,8 @@ struct Pipeline<'a> {
     name: &'a str,
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     depth: (bool, CompareFunction),
+    /// The faces of the ground that others hide: those that are seen from below.
+    hidden: Option<Face>,
 }
 
 impl Passes {
@@ -173,12 +175,14 @@ impl Passes {
         let rims = [Some(instances(RIM_BYTES, &RIM_ATTRIBUTES[..]))];
         let solid = |name, buffers| {
             let depth = (true, CompareFunction::Greater);
-            maker.light(&Pipeline { name, buffers, depth })
+            maker.light(&Pipeline { name, buffers, depth, hidden: None })
         };
-        let caster = |name, buffers| {
+        let caster = |name, buffers, hidden| {
             let depth = (true, CompareFunction::Less);
-            maker.caster(&Pipeline { name, buffers, depth })
+            maker.caster(&Pipeline { name, buffers, depth, hidden })
         };
+        // The cascades' directions across the rays are left-handed for the sun: what faces it turns the other way round.
+        let below = Some(Face::Front);
         let parts = Parts {
             context: maker.context,
             module: &maker.module,
@@ -200,10 +204,10 @@ impl Passes {
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
             casters: Casters {
-                ground: caster("ground", &patches),
-                beyond: maker.has.horizon.then(|| caster("beyond", &patches)),
-                sides: caster("side", &sides),
-                rims: caster("rim", &rims),
+                ground: caster("ground", &patches, below),
+                beyond: maker.has.horizon.then(|| caster("beyond", &patches, below)),
+                sides: caster("side", &sides, None),
+                rims: caster("rim", &rims, None),
             },
             module: maker.module.clone(),
             heights: patch_heights::pipeline(
@@ -382,7 +386,7 @@ impl Maker<'_> {
                     compilation_options: PipelineCompilationOptions::default(),
                     buffers: pipeline.buffers,
                 },
-                primitive: PrimitiveState::default(),
+                primitive: PrimitiveState { cull_mode: pipeline.hidden, ..PrimitiveState::default() },
                 depth_stencil: Some(depth_state(depth_write, compare)),
                 multisample: MultisampleState { count: samples, ..MultisampleState::default() },
                 fragment,

@@ -345,8 +345,9 @@ impl Renderer {
         }
         let into = &mut Upload { gpu: &self.gpu, encoder };
         let from = self.look.detail_from.unwrap_or(camera.eye);
-        let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from));
-        let drawn = self.terrain.prepare(into, camera, size, (from, woods))?;
+        let nearest = self.terrain.nearest_in_sight(camera, from);
+        let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(nearest));
+        let drawn = self.terrain.prepare(into, camera, size, (from, nearest, woods))?;
         let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, before, ..drawn };
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let wanted = CascadeContent::of(&drawn, pixel_angle);
@@ -386,7 +387,7 @@ impl Renderer {
         let device = &self.gpu.context.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
-        self.terrain.prepare(&mut into, camera, self.own.options.size, (camera.eye, 0.0))?;
+        self.terrain.prepare(&mut into, camera, self.own.options.size, (camera.eye, 0.0, 0.0))?;
         Ok(self.terrain.triangles())
     }
 }

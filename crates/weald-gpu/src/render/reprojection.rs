@@ -6,7 +6,8 @@
 //! depth of the ground there was another one or the light is older than some pictures; where something grew before it, from the
 //! nearest ground beside it of that depth. One block of pixels in eight is lit anew by turns, of a camera at rest one in
 //! four, so that little light is older than that, and a camera that has stood still for that long has the picture that is lit anew
-//! as a whole ([`super::screen::Screen::is_settled`]). Clouds are taken from where their base was seen (`clouds_before.wgsl`).
+//! as a whole ([`super::screen::Screen::is_settled`]). Clouds are taken from where their lower part was seen
+//! (`clouds_before.wgsl`).
 //!
 //! What differs from the source: due pixels are blocks by turns, not random ones, because devices light blocks; ground that
 //! something hid is not always lit anew, because among blades nearly all of it comes and goes; and water that is close by is

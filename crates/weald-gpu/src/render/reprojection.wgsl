@@ -8,9 +8,11 @@
 const REPROJECTED = 20u;
 
 // What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, and
-// nothing where something else than ground is seen. It is taken down to OLDEST.
+// nothing where something else than ground is seen. A block in whose middle it is as old as OLDEST is lit anew as a whole, for
+// which software takes as long as for one of its pixels; what is as old as LAST elsewhere is not taken either.
 const AGE = 0.0625;
 const OLDEST = 0.45;
+const LAST = 0.3;
 
 // Pixels along the side of a block: software lights four by four at once. One block in so many is due in each picture.
 const BLOCK = 4u;
@@ -109,9 +111,9 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
     let is_same = is_within && place.z > 0.0 && abs(depth - place.z) <= SAME_POINT * place.z;
     if is_same && seen <= SEEN_BEFORE {
         let near = light_near(vec2<i32>(round(place.xy - 0.5)), place.z);
-        return select(vec4<f32>(0.0), vec4<f32>(near.xyz, near.w - AGE), near.w > OLDEST);
+        return select(vec4<f32>(0.0), vec4<f32>(near.xyz, near.w - AGE), near.w > LAST);
     }
-    let is_known = is_same && youth > OLDEST;
+    let is_known = is_same && youth > LAST;
     return select(vec4<f32>(0.0), vec4<f32>(sum / max(seen, 1e-6), youth - AGE), is_known);
 }
 
@@ -139,6 +141,16 @@ fn light_near(texel: vec2<i32>, depth: f32) -> vec4<f32> {
     return found;
 }
 
+// Whether the light in the middle of a pixel's block is so old that all of the block is lit anew.
+fn is_block_old(position: vec2<f32>) -> bool {
+    let middle = floor(position / f32(BLOCK)) * f32(BLOCK) + vec2<f32>(2.5);
+    let depth = textureLoad(ground_depths, vec2<i32>(middle), 0);
+    let place = seen_before(middle, max(depth, 1e-9)).xy;
+    let last = vec2<i32>(textureDimensions(light_before)) - 1;
+    let light = textureLoad(light_before, clamp(vec2<i32>(place), vec2<i32>(0), last), 0);
+    return depth > 0.0 && light.w > 0.0 && light.w <= OLDEST;
+}
+
 struct LightBefore {
     @location(0) light: vec4<f32>,
     @builtin(frag_depth) kind: f32,
@@ -147,7 +159,7 @@ struct LightBefore {
 @fragment
 fn reprojected_fragment(@builtin(position) position: vec4<f32>) -> LightBefore {
     let depth = textureLoad(ground_depths, vec2<i32>(position.xy), 0);
-    if (depth <= 0.0) | is_hidden(position.xy, 0) | is_due(position.xy) {
+    if (depth <= 0.0) | is_hidden(position.xy, 0) | is_due(position.xy) | is_block_old(position.xy) {
         discard;
     }
     let light = light_seen_before(seen_before(position.xy, depth));

@@ -38,7 +38,7 @@ impl CascadeContent {
         let Drawn { cascades, woods, seconds, .. } = *drawn;
         std::array::from_fn(|number| {
             let (square, depths) = (cascades.squares[number], cascades.depths);
-            match cascades.detail_points.get(number) {
+            match cascades.detail_points.get(number).filter(|_| !cascades.is_nowhere(number)) {
                 Some(&from) => Self { square, depths, from, pixel_angle, woods, seconds },
                 None => Self { square, depths, from: [0.0; 4], pixel_angle: 0.0, woods: 0.0, seconds: 0.0 },
             }

@@ -117,6 +117,12 @@ fn first_cascade(point: vec3<f32>) -> i32 {
     return first;
 }
 
+// How much of a cascade counts for a point so far within it, at most 1: the last one ends where the landscape does.
+fn share_of_cascade(cascade: i32, inside: f32) -> f32 {
+    let reached = clamp(inside / PASSING, 0.0, 1.0) * frame.woods[min(cascade + 1, CASCADES - 1)];
+    return select(0.0, select(reached, 1.0, cascade == CASCADES - 1), inside > 0.0);
+}
+
 // Software looks into a cascade for as long as one of several pixels wants it: each begins with its own first one.
 fn sun_seen(point: vec3<f32>, normal: vec3<f32>) -> f32 {
     return sun_seen_on(point, point, normal);
@@ -135,10 +141,7 @@ fn sun_seen_on(point: vec3<f32>, smooth_point: vec3<f32>, normal: vec3<f32>) -> 
     var cascade = first;
     loop {
         let at = abs(in_cascade(point, cascade).xy);
-        let inside = 1.0 - max(at.x, at.y);
-        // The last one ends where the landscape does.
-        let reached = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
-        let share = select(0.0, reached, inside > 0.0);
+        let share = share_of_cascade(cascade, 1.0 - max(at.x, at.y));
         let here = select(point, smooth_point, cascade == CASCADES - 1);
         seen += passed * share * seen_in_cascade(here, normal, cascade);
         passed *= 1.0 - share;

@@ -1,26 +1,23 @@
 //! The patches of ground that a camera sees, on the device.
 
 use weald::Error;
-use weald::picture::{Camera, LitScene, Rim, SceneTexture};
+use weald::picture::{Camera, Haze, LitScene, Rim, SceneTexture};
 use wgpu::{CommandEncoderDescriptor, RenderPass};
 
-use super::cascades::{CASCADES, Cascades};
+use super::cascades::{CASCADES, Cascades, TREE, ViewedFrom};
 use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
 use super::instances::{Indices, Instances};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
+use super::nearest::nearest_ground;
 use super::patch_heights::{HEIGHTS_GROUP, PatchHeights};
+use super::skyline::seen_patches;
 use super::spacing::{Ranges, errors};
 use super::upload::Upload;
 use crate::gpu::Gpu;
 
 /// Pixels that the error of the ground may take on the screen.
 const ERROR: f32 = 1.0;
-
-/// Metres that trees are high, and pixels up to which they are seen so small that their shadows may be those for an eye
-/// some metres off.
-const TREE: f32 = 25.0;
-const SMALL_TREE: f32 = 20.0;
 
 /// Vertices of a wall.
 const WALL: u32 = 6;
@@ -32,8 +29,11 @@ pub(super) struct Terrain {
     heights: Heights,
     errors: Vec<f32>,
     is_empty: bool,
+    /// Whether some of it has no data, and hides nothing.
+    has_holes: bool,
     /// Direction of the sun.
     sun: [f32; 3],
+    haze: Haze,
     grid: Indices,
     wall: Indices,
     /// What the camera sees, and each cascade of the sun.
@@ -108,7 +108,9 @@ impl Terrain {
             heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
             errors: errors(top, lattice.all_levels()),
             is_empty: scene.is_empty(),
+            has_holes: scene.has_holes(),
             sun: scene.sun(),
+            haze: scene.haze(),
             grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
             seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
@@ -125,14 +127,18 @@ impl Terrain {
         into: &mut Upload<'_>,
         camera: &Camera,
         size: [u32; 2],
-        (detail_from, woods): ([f32; 3], f32),
+        (detail_from, nearest, woods): ([f32; 3], f32, f32),
     ) -> Result<Drawn, Error> {
         let stand = self.viewpoint(detail_from);
         let ranges = self.ranges(camera, size);
         let pixel_angle = camera.pixel_angle(size[0] as usize);
-        let is_among_trees = woods > 0.0 && !self.is_far_above_trees(detail_from, pixel_angle);
+        let trees = (woods > 0.0).then_some(pixel_angle);
         self.patch_heights.begin();
-        self.select(into, (0, &Frustum::of(camera)), stand, &ranges)?;
+        let mut patches = self.patches_in(&Frustum::of(camera), stand, &ranges);
+        if !self.has_holes {
+            patches = seen_patches(camera, (&self.lattice, &self.heights), patches);
+        }
+        self.take_patches(into, 0, patches)?;
         Ok(Drawn {
             stand,
             slides: ranges.slides(),
@@ -141,7 +147,7 @@ impl Terrain {
             is_dry: false,
             cascades: Cascades::new(
                 self.sun,
-                (camera, detail_from, is_among_trees),
+                &ViewedFrom { camera, detail_from, nearest, trees },
                 &self.bounds(),
                 self.has_horizon,
             ),
@@ -169,7 +175,7 @@ impl Terrain {
     fn ranges(&self, camera: &Camera, size: [u32; 2]) -> Ranges {
         let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
         let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
-        Ranges::new(&self.errors, reach, cell)
+        Ranges::new(&self.errors, (reach, cell), |metres: f32| self.haze.contrast_left(camera.eye[2], metres))
     }
 
     /// A point from which detail is chosen.
@@ -179,14 +185,12 @@ impl Terrain {
         Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
     }
 
-    /// Whether a point is so far above all ground around it that trees are small in pixels of an angle.
-    fn is_far_above_trees(&self, point: [f32; 3], pixel_angle: f32) -> bool {
-        let far = TREE / (SMALL_TREE * pixel_angle);
-        let [width, height] = self.lattice.metres;
-        let side = 2.0 * far / width.min(height);
-        let corner = self.viewpoint(point).place.map(|at| at - 0.5 * side);
-        let [_, [.., high]] = self.heights.box_of(corner, side);
-        point[2] - high > far
+    /// Metres from a point to the nearest ground that a camera sees, with trees on it.
+    pub(super) fn nearest_in_sight(&self, camera: &Camera, from: [f32; 3]) -> f32 {
+        if self.is_empty {
+            return f32::INFINITY;
+        }
+        nearest_ground(from, &self.lattice, (&self.heights, &Frustum::of(camera)), TREE)
     }
 
     /// Height in metres of a camera above all ground, that beyond the border too.
@@ -202,9 +206,13 @@ impl Terrain {
         stand: Viewpoint,
         ranges: &Ranges,
     ) -> Result<(), Error> {
-        let patches =
-            if self.is_empty { Vec::new() } else { self.lattice.select(stand, ranges, &self.heights, view) };
+        let patches = self.patches_in(view, stand, ranges);
         self.take_patches(into, number, patches)
+    }
+
+    /// The patches of a view; none where there is no ground.
+    fn patches_in(&self, view: &Frustum, stand: Viewpoint, ranges: &Ranges) -> Vec<Patch> {
+        if self.is_empty { Vec::new() } else { self.lattice.select(stand, ranges, &self.heights, view) }
     }
 
     /// Selects all ground for the sun's last cascade, whatever a camera sees: so finely that texels of so many metres do

@@ -12,6 +12,7 @@ use super::side::SideLight;
 use super::sky::Sky;
 use super::skylight::{self, Seen, Skylight};
 use super::surface::Surface;
+use super::surroundings::{HeightsBeyond, Surroundings};
 use super::terrain::{Ray, Terrain};
 use super::tone::Tone;
 use super::vector::{Vector, dot, filter, scale, subtract, towards};
@@ -153,6 +154,11 @@ impl LitScene {
         self.camera = camera;
     }
 
+    /// Its haze.
+    pub fn haze(&self) -> Haze {
+        self.haze
+    }
+
     /// Columns and rows of the surfaces.
     pub fn cells(&self) -> [usize; 2] {
         let size = self.setting.terrain.top.size();
@@ -241,10 +247,10 @@ impl LitScene {
         self.setting.around.as_ref().map_or(self.base(), |around| self.setting.top_beyond(around, place))
     }
 
-    /// Least and greatest height of the ground that goes on beyond the border, for seven of the longer sides of the
-    /// landscape; `None` where the landscape is a block.
-    pub fn beyond(&self) -> Option<[f32; 2]> {
-        self.setting.around.as_ref().map(|around| around.bounds)
+    /// How high the ground is that goes on beyond the border, for seven of the longer sides of the landscape; `None` where the
+    /// landscape is a block.
+    pub fn beyond(&self) -> Option<HeightsBeyond> {
+        self.setting.around.as_ref().map(Surroundings::heights)
     }
 
     /// Height of the drawn ground under the water at such a point; `None` outside the land.

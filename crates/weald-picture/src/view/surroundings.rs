@@ -69,6 +69,19 @@ pub(super) struct Surroundings {
     pub(super) far: [[f32; 2]; DIRECTIONS],
     /// Bounds of all heights beyond the border.
     pub(super) bounds: [f32; 2],
+    /// Height that no ground exceeds where all of the border is left behind.
+    pub(super) highest_far: f32,
+}
+
+/// How high the ground beyond the border is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeightsBeyond {
+    /// Least and greatest height of all of it.
+    pub all: [f32; 2],
+    /// The greatest so many cells away from the border and farther.
+    pub highest_far: f32,
+    /// Those cells.
+    pub far_from: f32,
 }
 
 /// A place beyond the border.
@@ -115,10 +128,17 @@ impl Surroundings {
         let of_far =
             |[height, uneven]: &[f32; 2], z: f32| height + uneven * lowered(z - mean, highest_far)[0];
         let lowest = far.iter().map(|far| of_far(far, low)).fold(2.0 * edge[0] - high, f32::min);
-        let highest = far.iter().map(|far| of_far(far, high)).fold(2.0 * edge[1] - low, f32::max);
-        let highest = highest.max(high).max(sea.unwrap_or(high));
+        let highest = far.iter().map(|far| of_far(far, high)).fold(f32::MIN, f32::max);
+        let highest = highest.max(sea.unwrap_or(highest));
         let cells = [size.columns as f32, size.rows as f32];
-        Self { cells, sea, mean, highest: highest_far, far, bounds: [lowest.min(low), highest] }
+        let bounds = [lowest.min(low), highest.max(2.0 * edge[1] - low).max(high)];
+        Self { cells, sea, mean, highest: highest_far, far, bounds, highest_far: highest }
+    }
+
+    /// How high the ground is.
+    pub(super) fn heights(&self) -> HeightsBeyond {
+        let far_from = JOIN * self.cells[0].max(self.cells[1]);
+        HeightsBeyond { all: self.bounds, highest_far: self.highest_far, far_from }
     }
 
     /// Whether a place lies beyond the border.

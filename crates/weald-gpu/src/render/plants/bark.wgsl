@@ -10,9 +10,11 @@ const FURROWS_LONG = 5.0;
 const FURROWS_DARK = 0.75;
 const FURROWS_STEEP = 0.07;
 
-// How dark the cracks between ribs are, and how narrow: a crack is where the noise of furrows is within 1 / this of its middle.
+// How dark the cracks between ribs are, and how narrow: a crack is where the noise of furrows is within 1 / this of its middle. Where
+// pixels are too large for furrows, a crack is as dark as all of them are in the mean.
 const CRACKS_DARK = 0.45;
 const CRACKS_WIDE = 6.0;
+const CRACKS_MEAN = 0.225;
 
 // Longest wavelength of patches of moss in metres, their colour, and how much of a stem they hide at most.
 const MOSS = 1.1;
@@ -36,7 +38,8 @@ fn bark_of(colour: vec3<f32>, point: vec3<f32>, side: vec3<f32>, turned: f32) ->
     let furrows = octaves_at(Octaves(FURROWS, 5u, 0.64, 0x51u), vec2<f32>(place.x, place.y / FURROWS_LONG), footprint);
     let patches = octaves_at(Octaves(MOSS, 5u, 0.6, 0x52u), place, footprint).value;
     let mossy = MOSS_MOST * smoothstep(0.0, 0.55, patches + 0.3 * side.y - 0.5 * furrows.value);
-    let crack = 1.0 - clamp(CRACKS_WIDE * abs(furrows.value + 0.05), 0.0, 1.0);
+    let sharp = 1.0 - clamp(CRACKS_WIDE * abs(furrows.value + 0.05), 0.0, 1.0);
+    let crack = mix(CRACKS_MEAN, sharp, grain_visible(footprint, FURROWS));
     let tone = max(1.0 + FURROWS_DARK * furrows.value + 0.3 * patches - CRACKS_DARK * crack, 0.25);
     let across = normalize(vec3<f32>(side.y, -side.x, 1e-4)) * sign(around);
     let rough = normalize(side) - FURROWS_STEEP * furrows.slope.x * across;

@@ -142,8 +142,7 @@ fn sun_on_leaf(point: vec3<f32>) -> f32 {
         // Off the leaf itself.
         let at = in_cascade(point + 1.5 * texel_of(cascade) * scene.sun.xyz, cascade);
         let inside = 1.0 - max(abs(at.x), abs(at.y));
-        let reached = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
-        let share = select(0.0, reached, inside > 0.0 && first < CASCADES);
+        let share = select(0.0, share_of_cascade(cascade, inside), first < CASCADES);
         let place = at.xy * vec2<f32>(0.5, -0.5) + 0.5;
         let depth = clamp(at.z, 0.0, 1.0);
         let open = textureSampleCompareLevel(shadow_depths, shadow_between, place, cascade, depth);

@@ -58,13 +58,14 @@ impl Plants {
         let pipelines = Pipelines::new(gpu, scene, layouts, samples)?;
         let sets = grown.map(|(_, plants)| Batch::new(gpu, scene, (landscape, plants), &pipelines.groups));
         let sets = sets.collect::<Result<_, _>>()?;
-        let wood = if scene.has_woods() { Some(Wood::new(gpu, scene, &pipelines)?) } else { None };
+        let wood = if scene.has_woods() { Some(Wood::new(gpu, &pipelines)?) } else { None };
         Ok(Some(Self { sets, wood, has_trees: false, pipelines }))
     }
 
-    /// How far the trees of woods are drawn one by one for a camera, in metres: not at all from above all of them.
-    pub(super) fn reach_of_trees(&mut self, eye: [f32; 3]) -> f32 {
-        self.has_trees = self.wood.as_ref().is_some_and(|wood| wood.is_near(eye));
+    /// How far the trees of woods are drawn one by one, in metres, where the nearest ground in sight is so far away: not at all
+    /// from farther away than that.
+    pub(super) fn reach_of_trees(&mut self, nearest: f32) -> f32 {
+        self.has_trees = self.wood.is_some() && nearest < REACH;
         if self.has_trees { REACH } else { 0.0 }
     }
 

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use weald::Error;
 use weald::grow::ifs::limbs::Limbs;
 use weald::grow::ifs::shapes;
-use weald::picture::{LitScene, SPACING_OF_TREES};
+use weald::picture::SPACING_OF_TREES;
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor};
 
 use super::batch::{Batch, Kind, colours, leaflets, limbs_of};
@@ -39,12 +39,10 @@ pub(super) struct Wood {
     pub(super) kinds: Vec<Batch>,
     /// The middle of what is known, and whether the ground has changed since.
     known: Option<[i64; 2]>,
-    /// Height above all trees.
-    highest: f32,
 }
 
 impl Wood {
-    pub(super) fn new(gpu: &Gpu, scene: &LitScene, pipelines: &Pipelines) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, pipelines: &Pipelines) -> Result<Self, Error> {
         let kinds = KINDS.iter().zip(&LIMBS).map(|(&(name, is_conifer), limbs)| {
             let find = || limbs_of(&shapes::find(name).expect("a built-in shape").ifs());
             let wood = [REACH, f32::from(is_conifer), SIDE as f32];
@@ -53,12 +51,7 @@ impl Wood {
             Batch::wood(gpu, &kind, (SIDE * SIDE) as usize, &pipelines.groups)
         });
         let kinds = kinds.collect::<Result<_, _>>()?;
-        Ok(Self { kinds, known: None, highest: scene.highest() })
-    }
-
-    /// Whether a camera may see trees one by one.
-    pub(super) fn is_near(&self, eye: [f32; 3]) -> bool {
-        eye[2] < self.highest + REACH
+        Ok(Self { kinds, known: None })
     }
 
     /// Has the trees stand anew for the next camera.

@@ -85,11 +85,18 @@ fn no_height_is_beyond_its_bounds() {
     for sea in [None, Some(-5.0)] {
         let around = Surroundings::new(&bed, sea);
         let [low, high] = around.bounds;
+        let mut far = 0;
         for step in 0..2000 {
             let place = [0, 1].map(|seed| 600.0 * uniform(hash2(seed, step, 9)) as f32 - 270.0);
             let height = around.at(&bed, place).surface[0];
             assert!(height >= low - 1e-3 && height <= high + 1e-3, "{height} outside {low} to {high}");
+            let away = [0, 1].map(|axis| place[axis] - place[axis].clamp(0.5, around.cells[axis] + 0.5));
+            let HeightsBeyond { highest_far, far_from, .. } = around.heights();
+            let is_far = away[0].hypot(away[1]) >= far_from;
+            assert!(!is_far || height <= highest_far + 1e-3, "{height} above {highest_far} at {place:?}");
+            far += usize::from(is_far);
         }
+        assert!(far > 1000 && around.highest_far < high);
     }
 }
 
