@@ -5,7 +5,7 @@
 //! where they are (Valient 2008, "Stable rendering of cascaded shadow maps", Shader X6). What differs: it moves by an eighth
 //! of its side at once, and what is drawn into it is chosen from a point that moves by steps as well, so that a cascade is
 //! drawn once for many pictures of a camera that moves. What the camera sees begins at the nearest ground in sight: steps are a
-//! share of that distance, and a cascade that ends before it is nowhere. The last holds all.
+//! share of that distance, and a cascade that ends far before it is nowhere. The last holds all.
 
 use weald::picture::Camera;
 
@@ -28,7 +28,7 @@ const STRIDES: f32 = 8.0;
 const EYE_STRIDES: [f32; CASCADES - 1] = [2.0, 8.0, 32.0];
 const EYE_STRIDE: f32 = 1.0 / 16.0;
 
-/// Metres that trees are high. Among them, where their shadows would leap, the point moves by so little that none is seen higher
+/// Metres that trees of woods are high at most. Among them, where their shadows would leap, the point moves by so little that none is seen higher
 /// or lower by more than so many pixels; where that is less than so many metres, it is the camera's.
 pub(super) const TREE: f32 = 25.0;
 const TREE_PIXELS: f32 = 1.0;
@@ -38,7 +38,7 @@ const LEAST_STRIDE: f32 = 0.25;
 const COMES_IN: [f32; 2] = [1.25, 1.0];
 
 /// The square of a cascade that is not there: nowhere.
-const NOWHERE: [f32; 4] = [1e9, 1e9, 1.0, 1.0];
+pub(super) const NOWHERE: [f32; 4] = [1e9, 1e9, 1.0, 1.0];
 
 /// Share by which the last is wider than the landscape.
 const MARGIN: f32 = 1.02;
@@ -55,8 +55,8 @@ pub(super) struct Cascades {
     pub(super) squares: [[f32; 4]; CASCADES],
     /// From where is chosen what all but the last hold; with how far the eye is from there at most.
     pub(super) detail_points: [[f32; 4]; CASCADES - 1],
-    /// How much of each but the last counts: nothing of those that end before the nearest ground in sight.
-    pub(super) shares: [f32; CASCADES - 1],
+    /// How much of each counts: nothing of those that end far before the nearest ground in sight, all of the last.
+    pub(super) shares: [f32; CASCADES],
 }
 
 /// What cascades are chosen for.
@@ -104,7 +104,8 @@ impl Cascades {
         let whole = [extent(landscape, right), extent(landscape, up)];
         let [middle_x, middle_y] = whole.map(|[low, high]| 0.5 * (low + high));
         let [half_x, half_y] = whole.map(|[low, high]| 0.5 * MARGIN * (high - low).max(1e-3));
-        let shares = REACHES.map(|reach| {
+        let shares = std::array::from_fn(|cascade| {
+            let Some(reach) = REACHES.get(cascade) else { return 1.0 };
             let [none, whole] = COMES_IN.map(|times| times * reach);
             ((none - view.nearest) / (none - whole)).clamp(0.0, 1.0)
         });
@@ -115,11 +116,6 @@ impl Cascades {
         });
         let detail_points = std::array::from_fn(|cascade| view.detail_point(cascade));
         Self { right, up, depths: [high, (high - low).max(1e-3)], squares, detail_points, shares }
-    }
-
-    /// Whether a cascade is not there: what it would hold is not in sight.
-    pub(super) fn is_nowhere(&self, cascade: usize) -> bool {
-        self.squares[cascade] == NOWHERE
     }
 
     /// Metres of a texel of the last, which holds all.
@@ -229,7 +225,8 @@ mod tests {
         for (cascade, reach) in REACHES.into_iter().enumerate() {
             let shares = [0.5, 1.0, 1.125, 1.25, 40.0].map(|times| of(times * reach, None).shares[cascade]);
             assert_eq!(shares, [1.0, 1.0, 0.5, 0.0, 0.0]);
-            assert!(!of(reach, None).is_nowhere(cascade) && of(1.3 * reach, None).is_nowhere(cascade));
+            let square = |nearest: f32| of(nearest, None).squares[cascade];
+            assert!(square(reach) != NOWHERE && square(1.3 * reach) == NOWHERE);
         }
         let off = |nearest: f32, trees: Option<f32>| of(nearest, trees).detail_points.map(|point| point[3]);
         // Among trees the point is the camera's; 700 m from them they may be seen a pixel of 1 mrad higher or lower.

@@ -1,6 +1,6 @@
 // Light of clouds that a window's picture before has, taken for the next one, as `reprojection.wgsl` takes that of the ground:
 // from where the point at which a ray meets the lower part of clouds was seen then. Clouds do not move, and what is above or below
-// that lies off by less than a pixel while the eye moves little for its distance.
+// that lies off by a pixel in the mean while the eye moves little for its distance.
 
 @group(2) @binding(9) var clouds_light_before: texture_2d<f32>;
 

@@ -36,6 +36,7 @@ struct Numbers {
     cascades: [[f32; 4]; CASCADES],
     detail_points: [[f32; 4]; CASCADES - 1],
     woods: [f32; 4],
+    shares: [f32; CASCADES],
     stale: [f32; CASCADES],
     before: [[f32; 4]; 4],
     pixel: [f32; 4],
@@ -130,12 +131,12 @@ impl Frame {
     pub(super) fn write_cascade(
         &self,
         into: &mut Upload<'_>,
-        (number, stand): (usize, Viewpoint),
+        (number, (stand, slides)): (usize, (Viewpoint, [[f32; 4]; MAX_LEVELS])),
         shown: (&Camera, [u32; 2]),
         drawn: &Drawn,
     ) {
         let own = if let Some([x, y, z, _]) = drawn.cascades.detail_points.get(number) {
-            Drawn { stand, detail_from: [*x, *y, *z], ..*drawn }
+            Drawn { stand, slides, detail_from: [*x, *y, *z], ..*drawn }
         } else {
             Drawn { slides: [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS], seconds: 0.0, ..*drawn }
         };
@@ -148,7 +149,6 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
     let [x, y] = drawn.stand.place;
     let [near_x, near_y, near_z] = drawn.detail_from;
     let [across, down] = [0, 1].map(|axis| 2.0 * camera.half[axis] / size[axis] as f32);
-    let [a, b, c] = drawn.cascades.shares;
     let numbers = Numbers {
         eye: with(camera.eye, camera.pixel_angle(size[0] as usize)),
         forward: with(camera.forward, NEAREST),
@@ -161,7 +161,8 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
         sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
         cascades: drawn.cascades.squares,
         detail_points: drawn.cascades.detail_points,
-        woods: [drawn.woods, a, b, c],
+        woods: [drawn.woods, 0.0, 0.0, 0.0],
+        shares: drawn.cascades.shares,
         stale: drawn.stale.map(f32::from),
         pixel: [across, down, 0.0, 0.0],
         before: drawn.before.map_or([[0.0; 4]; 4], |before| numbers_before(camera, before)),

@@ -20,8 +20,10 @@ struct Frame {
     cascades: array<vec4<f32>, 4>,
     // From where is chosen what all cascades but the last hold; with how far the eye is from there at most.
     detail_points: array<vec4<f32>, 3>,
-    // How far trees of woods are drawn one by one, in metres, 0 where none are; and how much of each cascade but the last counts.
+    // How far trees of woods are drawn one by one, in metres; 0 where none are.
     woods: vec4<f32>,
+    // How much of each cascade counts.
+    cascade_shares: vec4<f32>,
     // 1 for each cascade that is drawn anew.
     stale: vec4<f32>,
     // Where this eye is from that of the picture before, and the directions of its camera; with the number of turns in which

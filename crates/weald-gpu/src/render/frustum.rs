@@ -70,7 +70,7 @@ pub(crate) struct Heights {
 /// Control points along the side of the smallest square.
 const SMALLEST: usize = 4;
 
-/// Squares along a side of those by which the bounds of a larger one are told: of fewer each would reach further beyond it.
+/// Squares along the side of a larger one, at most, by which its bounds are found: fewer and larger ones would reach further beyond it.
 const ACROSS: usize = 4;
 
 impl Heights {
@@ -119,6 +119,11 @@ impl Heights {
     /// The greatest height of all and of what goes on beyond the border.
     pub(crate) fn highest_around(&self) -> f32 {
         self.beyond.map_or(self.highest(), |(beyond, _)| beyond.all[1].max(self.highest()))
+    }
+
+    /// Height of what the ground stands on.
+    pub(crate) fn base(&self) -> f32 {
+        self.base
     }
 
     /// The least height of all.

@@ -7,8 +7,8 @@ use weald::Error;
 use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingResource, BindingType, Color, RenderPass, RenderPipeline, ShaderStages,
-    TextureSampleType, TextureViewDimension,
+    BindGroupLayoutEntry, BindingResource, BindingType, Color, Face, RenderPass, RenderPipeline,
+    ShaderStages, TextureSampleType, TextureViewDimension,
 };
 
 use super::ground_pipelines::{Light, Over, Parts};
@@ -116,6 +116,9 @@ const BACKDROP: [Light; 2] = [
 const NONE: Range<u32> = 0..0;
 const WET_BEYOND: [Range<u32>; 2] = [2..3, 25..26];
 
+/// Triangles that are not drawn from above the ground, since others hide them: those that are seen from below.
+const HIDDEN: [Option<Face>; 2] = [Some(Face::Back), None];
+
 /// How much further the kinds behind edges are numbered, as the shader has it.
 const BEHIND_EDGE: u32 = 4;
 
@@ -163,8 +166,9 @@ impl InSight {
 /// The pipelines of the ground.
 #[derive(Debug)]
 pub(super) struct Ground {
-    depth: RenderPipeline,
-    beyond: Option<RenderPipeline>,
+    /// From above the ground, and from anywhere.
+    depth: [RenderPipeline; 2],
+    beyond: Option<[RenderPipeline; 2]>,
     kind: RenderPipeline,
     /// The light of clouds, and what draws it before all else; `None` where there are none.
     clouds: Option<[RenderPipeline; 2]>,
@@ -196,8 +200,8 @@ impl Ground {
         let ages = |over| if over == Over::Flowing { FORGOTTEN } else { STAYS };
         let drawn = lights.iter().map(|&(light, is_behind)| (kinds_of(light, is_behind), ages(light.over)));
         Ok(Self {
-            depth: parts.depth("ground_vertex"),
-            beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
+            depth: HIDDEN.map(|hidden| parts.depth("ground_vertex", hidden)),
+            beyond: parts.has.horizon.then(|| HIDDEN.map(|hidden| parts.depth("beyond_vertex", hidden))),
             kind: parts.kind(),
             wet_beyond: (parts.has.horizon && parts.samples == 1)
                 .then(|| [true, false].map(|is_far| parts.wet_beyond(is_far))),
@@ -209,10 +213,11 @@ impl Ground {
 
     /// Draws the depths of all triangles.
     pub(super) fn draw_depths(&self, pass: &mut RenderPass<'_>, terrain: &Terrain) {
-        pass.set_pipeline(&self.depth);
+        let which = usize::from(!terrain.is_seen_from_above());
+        pass.set_pipeline(&self.depth[which]);
         terrain.draw_ground(pass, 0);
         if let Some(beyond) = &self.beyond {
-            pass.set_pipeline(beyond);
+            pass.set_pipeline(&beyond[which]);
             terrain.draw_beyond(pass, 0);
         }
     }

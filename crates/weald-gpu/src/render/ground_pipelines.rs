@@ -76,7 +76,7 @@ struct Drawn<'a> {
     target: Option<ColorTargetState>,
     /// Whether it is kept, and how it is compared; `None` without depth.
     depth: Option<(bool, CompareFunction)>,
-    /// The faces of the ground that others hide: those that are seen from below.
+    /// Faces that are not drawn.
     hidden: Option<Face>,
 }
 
@@ -109,10 +109,10 @@ const BEFORE_ALL: BlendState = BlendState {
 };
 
 impl Parts<'_> {
-    /// The depths of triangles of the ground.
-    pub(super) fn depth(&self, vertex: &str) -> RenderPipeline {
+    /// The depths of triangles of the ground, but for those that are seen from below, which others hide, or of all.
+    pub(super) fn depth(&self, vertex: &str, hidden: Option<Face>) -> RenderPipeline {
         self.pipeline(&Drawn {
-            key: format!("depths of {vertex} {}", self.has.holes),
+            key: format!("depths of {vertex} {} {hidden:?}", self.has.holes),
             layout: self.layouts[1],
             samples: self.samples,
             vertex: (vertex, self.patches),
@@ -120,7 +120,7 @@ impl Parts<'_> {
             constants: &[],
             target: None,
             depth: Some((true, CompareFunction::Greater)),
-            hidden: Some(Face::Back),
+            hidden,
         })
     }
 

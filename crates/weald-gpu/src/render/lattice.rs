@@ -99,6 +99,11 @@ impl Lattice {
         self.around > 0 || (0..2).all(|axis| corner[axis] < self.cells[axis] + 0.5)
     }
 
+    /// Whether a place lies within the border.
+    pub(super) fn holds(&self, place: [f32; 2]) -> bool {
+        (0..2).all(|axis| (0.5..=self.cells[axis] + 0.5).contains(&place[axis]))
+    }
+
     /// Whether a patch lies in part beyond the border, where ground goes on.
     pub(crate) fn is_beyond(&self, patch: &Patch) -> bool {
         let side = QUADS as f32 * patch.spacing;

@@ -1,4 +1,4 @@
-//! Measures how long the parts of a picture take, as the least of several pictures.
+//! Measures how long the parts of a picture take, as the least of several pictures, and counts its triangles.
 //!
 //! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
 //! water, which is drawn as well.
@@ -10,9 +10,12 @@ use weald::Error;
 use weald::picture::Camera;
 use web_time::Instant;
 
+use super::options::check_camera;
 use super::picture::Readback;
 use super::renderer::{Renderer, Shot};
+use super::terrain::Shown;
 use super::timing::{Timer, Timings};
+use super::upload::Upload;
 
 /// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
 const TIMEOUT: Duration = Duration::from_mins(20);
@@ -53,6 +56,20 @@ impl Renderer {
             })?;
         }
         Ok(begun.elapsed())
+    }
+
+    /// How many triangles the ground of a camera takes.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn triangles(&mut self, camera: &Camera) -> Result<u64, Error> {
+        check_camera(camera)?;
+        let device = &self.gpu.context.device;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
+        let shown = Shown { detail_from: camera.eye, heights_are_known: true, ..Shown::default() };
+        self.terrain.prepare(&mut into, camera, self.own.options.size, shown)?;
+        Ok(self.terrain.triangles())
     }
 
     /// The least times with water, and without where there is some.

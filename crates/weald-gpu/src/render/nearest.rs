@@ -63,8 +63,7 @@ impl Search<'_> {
         if !self.lattice.has_ground(corner) {
             return None;
         }
-        let [mut low, mut high] = self.heights.box_of(corner, side);
-        [low[2], high[2]] = self.heights.bounds(corner, side);
+        let [low, mut high] = self.heights.box_of(corner, side);
         high[2] += self.stands;
         let away = |axis: usize| (low[axis] - self.from[axis]).max(self.from[axis] - high[axis]).max(0.0);
         self.view.meets(&[low, high]).then(|| away(0).hypot(away(1)).hypot(away(2)))

@@ -4,7 +4,7 @@ use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    ComputePipeline, Face, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout,
+    ComputePipeline, FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout,
     PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPipeline, RenderPipelineDescriptor,
     ShaderModule, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
@@ -112,8 +112,6 @@ struct Pipeline<'a> {
     name: &'a str,
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     depth: (bool, CompareFunction),
-    /// The faces of the ground that others hide: those that are seen from below.
-    hidden: Option<Face>,
 }
 
 impl Passes {
@@ -175,14 +173,12 @@ impl Passes {
         let rims = [Some(instances(RIM_BYTES, &RIM_ATTRIBUTES[..]))];
         let solid = |name, buffers| {
             let depth = (true, CompareFunction::Greater);
-            maker.light(&Pipeline { name, buffers, depth, hidden: None })
+            maker.light(&Pipeline { name, buffers, depth })
         };
-        let caster = |name, buffers, hidden| {
+        let caster = |name, buffers| {
             let depth = (true, CompareFunction::Less);
-            maker.caster(&Pipeline { name, buffers, depth, hidden })
+            maker.caster(&Pipeline { name, buffers, depth })
         };
-        // The cascades' directions across the rays are left-handed for the sun: what faces it turns the other way round.
-        let below = Some(Face::Front);
         let parts = Parts {
             context: maker.context,
             module: &maker.module,
@@ -204,10 +200,10 @@ impl Passes {
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
             casters: Casters {
-                ground: caster("ground", &patches, below),
-                beyond: maker.has.horizon.then(|| caster("beyond", &patches, below)),
-                sides: caster("side", &sides, None),
-                rims: caster("rim", &rims, None),
+                ground: caster("ground", &patches),
+                beyond: maker.has.horizon.then(|| caster("beyond", &patches)),
+                sides: caster("side", &sides),
+                rims: caster("rim", &rims),
             },
             module: maker.module.clone(),
             heights: patch_heights::pipeline(
@@ -386,7 +382,7 @@ impl Maker<'_> {
                     compilation_options: PipelineCompilationOptions::default(),
                     buffers: pipeline.buffers,
                 },
-                primitive: PrimitiveState { cull_mode: pipeline.hidden, ..PrimitiveState::default() },
+                primitive: PrimitiveState::default(),
                 depth_stencil: Some(depth_state(depth_write, compare)),
                 multisample: MultisampleState { count: samples, ..MultisampleState::default() },
                 fragment,

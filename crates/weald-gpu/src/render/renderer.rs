@@ -26,7 +26,7 @@ use super::picture::Readback;
 use super::plants::Plants;
 use super::reprojection::{LightBefore, Moment};
 use super::shadows::{CascadeContent, Shadows};
-use super::terrain::Terrain;
+use super::terrain::{Shown, Terrain};
 use super::textures::Canvas;
 use super::timing::Timer;
 use super::tone_mapping::ToneMapping;
@@ -225,6 +225,7 @@ impl Renderer {
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
         self.forget_light();
         self.cloud_base = coming.cloud_base();
+        self.terrain.take_haze(coming.haze());
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
             self.terrain.take(heights, errors);
@@ -345,9 +346,13 @@ impl Renderer {
         }
         let into = &mut Upload { gpu: &self.gpu, encoder };
         let from = self.look.detail_from.unwrap_or(camera.eye);
-        let nearest = self.terrain.nearest_in_sight(camera, from);
+        let tallest = self.plants.as_ref().map_or(0.0, |plants| plants.tallest);
+        let nearest = self.terrain.nearest_in_sight(camera, from, tallest);
         let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(nearest));
-        let drawn = self.terrain.prepare(into, camera, size, (from, nearest, woods))?;
+        // A simulation that is followed changes the ground on the device, and so do rows that are on their way.
+        let heights_are_known = self.follower.is_none() && self.coming.is_none();
+        let shown = Shown { detail_from: from, nearest, woods, heights_are_known };
+        let drawn = self.terrain.prepare(into, camera, size, shown)?;
         let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, before, ..drawn };
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let wanted = CascadeContent::of(&drawn, pixel_angle);
@@ -356,7 +361,7 @@ impl Renderer {
         for number in (0..CASCADES).filter(|&number| drawn.stale[number]) {
             let stand = if number == CASCADES - 1 {
                 self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
-                drawn.stand
+                (drawn.stand, drawn.slides)
             } else {
                 self.terrain.prepare_cascade(into, number, (camera, size), &drawn.cascades)?
             };
@@ -376,19 +381,6 @@ impl Renderer {
         }
         let in_sight = InSight::of(camera, self.terrain.above_all(camera), pixel_angle, self.cloud_base);
         Ok((wanted, in_sight))
-    }
-
-    /// How many triangles the ground of a camera takes.
-    ///
-    /// # Errors
-    /// As [`Renderer::render`].
-    pub fn triangles(&mut self, camera: &Camera) -> Result<u64, Error> {
-        check_camera(camera)?;
-        let device = &self.gpu.context.device;
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
-        self.terrain.prepare(&mut into, camera, self.own.options.size, (camera.eye, 0.0, 0.0))?;
-        Ok(self.terrain.triangles())
     }
 }
 

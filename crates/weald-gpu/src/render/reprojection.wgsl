@@ -143,7 +143,8 @@ fn light_near(texel: vec2<i32>, depth: f32) -> vec4<f32> {
 
 // Whether the light in the middle of a pixel's block is so old that all of the block is lit anew.
 fn is_block_old(position: vec2<f32>) -> bool {
-    let middle = floor(position / f32(BLOCK)) * f32(BLOCK) + vec2<f32>(2.5);
+    let end = vec2<f32>(textureDimensions(ground_depths)) - 0.5;
+    let middle = min(floor(position / f32(BLOCK)) * f32(BLOCK) + vec2<f32>(2.5), end);
     let depth = textureLoad(ground_depths, vec2<i32>(middle), 0);
     let place = seen_before(middle, max(depth, 1e-9)).xy;
     let last = vec2<i32>(textureDimensions(light_before)) - 1;

@@ -8,7 +8,7 @@ use wgpu::{
     StoreOp, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
-use super::cascades::{CASCADES, TEXELS};
+use super::cascades::{CASCADES, NOWHERE, TEXELS};
 use super::casters::Casters;
 use super::frame::Drawn;
 use super::passes::Drawing;
@@ -38,7 +38,7 @@ impl CascadeContent {
         let Drawn { cascades, woods, seconds, .. } = *drawn;
         std::array::from_fn(|number| {
             let (square, depths) = (cascades.squares[number], cascades.depths);
-            match cascades.detail_points.get(number).filter(|_| !cascades.is_nowhere(number)) {
+            match cascades.detail_points.get(number) {
                 Some(&from) => Self { square, depths, from, pixel_angle, woods, seconds },
                 None => Self { square, depths, from: [0.0; 4], pixel_angle: 0.0, woods: 0.0, seconds: 0.0 },
             }
@@ -101,9 +101,11 @@ impl Shadows {
         self.drawn = [None; CASCADES];
     }
 
-    /// The cascades that are not as a picture wants them.
+    /// The cascades that are not as a picture wants them; in one that is nowhere nothing is looked up.
     pub(super) fn stale(&self, wanted: &[CascadeContent; CASCADES]) -> [bool; CASCADES] {
-        std::array::from_fn(|number| self.drawn[number] != Some(wanted[number]))
+        std::array::from_fn(|number| {
+            wanted[number].square != NOWHERE && self.drawn[number] != Some(wanted[number])
+        })
     }
 
     /// Draws what throws shadows into cascades, by their numbers and those of the landscape.

@@ -119,8 +119,8 @@ fn first_cascade(point: vec3<f32>) -> i32 {
 
 // How much of a cascade counts for a point so far within it, at most 1: the last one ends where the landscape does.
 fn share_of_cascade(cascade: i32, inside: f32) -> f32 {
-    let reached = clamp(inside / PASSING, 0.0, 1.0) * frame.woods[min(cascade + 1, CASCADES - 1)];
-    return select(0.0, select(reached, 1.0, cascade == CASCADES - 1), inside > 0.0);
+    let reached = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
+    return select(0.0, reached * frame.cascade_shares[cascade], inside > 0.0);
 }
 
 // Software looks into a cascade for as long as one of several pixels wants it: each begins with its own first one.

@@ -9,6 +9,7 @@ use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
 use super::instances::{Indices, Instances};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
+use super::levels::MAX_LEVELS;
 use super::nearest::nearest_ground;
 use super::patch_heights::{HEIGHTS_GROUP, PatchHeights};
 use super::skyline::seen_patches;
@@ -44,6 +45,19 @@ pub(super) struct Terrain {
     has_horizon: bool,
 }
 
+/// From where and how a camera's ground is selected.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Shown {
+    /// The point from which detail is chosen.
+    pub(super) detail_from: [f32; 3],
+    /// Metres from there to the nearest ground in sight.
+    pub(super) nearest: f32,
+    /// How far trees of woods are drawn one by one, in metres.
+    pub(super) woods: f32,
+    /// Whether the ground on the device is the one whose heights are known here, which says what it hides.
+    pub(super) heights_are_known: bool,
+}
+
 /// A patch with the slot of its heights.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
@@ -67,6 +81,8 @@ struct Seen {
     /// Those that lie in part beyond the border, where ground goes on.
     beyond: Instances<Slotted>,
     sides: Instances<Side>,
+    /// Whether what looks at them is above the ground for certain, and sees none of it from below.
+    from_above: bool,
 }
 
 impl Seen {
@@ -75,6 +91,7 @@ impl Seen {
             patches: Instances::new(gpu, "patches")?,
             beyond: Instances::new(gpu, "patches beyond the border")?,
             sides: Instances::new(gpu, "sides")?,
+            from_above: false,
         })
     }
 
@@ -121,21 +138,23 @@ impl Terrain {
         })
     }
 
-    /// Selects what a camera sees for a picture of such a size: with detail as from a point, and trees of woods up to a distance.
+    /// Selects what a camera sees for a picture of such a size.
     pub(super) fn prepare(
         &mut self,
         into: &mut Upload<'_>,
         camera: &Camera,
         size: [u32; 2],
-        (detail_from, nearest, woods): ([f32; 3], f32, f32),
+        Shown { detail_from, nearest, woods, heights_are_known }: Shown,
     ) -> Result<Drawn, Error> {
         let stand = self.viewpoint(detail_from);
-        let ranges = self.ranges(camera, size);
+        let ranges = self.ranges((camera, size), camera.eye[2]);
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let trees = (woods > 0.0).then_some(pixel_angle);
         self.patch_heights.begin();
         let mut patches = self.patches_in(&Frustum::of(camera), stand, &ranges);
-        if !self.has_holes {
+        let from_above = self.is_above_ground(camera.eye);
+        self.seen[0].from_above = from_above;
+        if heights_are_known && from_above && !self.has_holes {
             patches = seen_patches(camera, (&self.lattice, &self.heights), patches);
         }
         self.take_patches(into, 0, patches)?;
@@ -157,25 +176,28 @@ impl Terrain {
         })
     }
 
-    /// Selects what a cascade of a picture holds that a camera changes, and says from where.
+    /// Selects what a cascade of a picture holds that a camera changes, and says from where and how its levels slide.
     pub(super) fn prepare_cascade(
         &mut self,
         into: &mut Upload<'_>,
         number: usize,
         (camera, size): (&Camera, [u32; 2]),
         cascades: &Cascades,
-    ) -> Result<Viewpoint, Error> {
+    ) -> Result<(Viewpoint, [[f32; 4]; MAX_LEVELS]), Error> {
         let [x, y, z, _] = cascades.detail_points[number];
-        let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges(camera, size));
+        // By that height and not by the camera's: a cascade is the same whatever was drawn before.
+        let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges((camera, size), z));
         self.select(into, (number + 1, &cascades.column(number)), stand, &ranges)?;
-        Ok(stand)
+        Ok((stand, ranges.slides()))
     }
 
-    /// The distances up to which levels of detail reach in a picture.
-    fn ranges(&self, camera: &Camera, size: [u32; 2]) -> Ranges {
+    /// The distances up to which levels of detail reach in a picture, seen from a height. Haze thins with height: what stands above
+    /// the eye is seen through that half-way up.
+    fn ranges(&self, (camera, size): (&Camera, [u32; 2]), height: f32) -> Ranges {
         let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
+        let height = height + 0.5 * (self.heights.highest_around() - height).max(0.0);
         let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
-        Ranges::new(&self.errors, (reach, cell), |metres: f32| self.haze.contrast_left(camera.eye[2], metres))
+        Ranges::new(&self.errors, (reach, cell), |metres: f32| self.haze.contrast_left(height, metres))
     }
 
     /// A point from which detail is chosen.
@@ -185,12 +207,22 @@ impl Terrain {
         Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
     }
 
-    /// Metres from a point to the nearest ground that a camera sees, with trees on it.
-    pub(super) fn nearest_in_sight(&self, camera: &Camera, from: [f32; 3]) -> f32 {
+    /// Metres from a point to the nearest ground that a camera sees, with plants so high on it, or to the plain below a block.
+    pub(super) fn nearest_in_sight(&self, camera: &Camera, from: [f32; 3], tallest: f32) -> f32 {
+        let plain = if self.has_horizon { f32::INFINITY } else { (from[2] - self.heights.base()).abs() };
         if self.is_empty {
-            return f32::INFINITY;
+            return plain;
         }
-        nearest_ground(from, &self.lattice, (&self.heights, &Frustum::of(camera)), TREE)
+        let view = Frustum::of(camera);
+        plain.min(nearest_ground(from, &self.lattice, (&self.heights, &view), TREE.max(tallest)))
+    }
+
+    /// Whether a point is for certain above the ground, not only beside it.
+    fn is_above_ground(&self, point: [f32; 3]) -> bool {
+        let corner = self.viewpoint(point).place.map(|at| at - 1.0);
+        let is_beside = !self.has_horizon && !self.lattice.holds(corner.map(|at| at + 1.0));
+        let lowest = if is_beside { self.heights.base() } else { self.heights.bounds(corner, 2.0)[1] };
+        point[2] > lowest
     }
 
     /// Height in metres of a camera above all ground, that beyond the border too.
@@ -263,6 +295,16 @@ impl Terrain {
         (self.heights, self.errors) = (heights, errors);
     }
 
+    /// Takes other haze.
+    pub(super) fn take_haze(&mut self, haze: Haze) {
+        self.haze = haze;
+    }
+
+    /// Whether the camera of the last picture is above the ground.
+    pub(super) fn is_seen_from_above(&self) -> bool {
+        self.seen[0].from_above
+    }
+
     /// The box around all of it.
     fn bounds(&self) -> Box3 {
         let side = self.lattice.cells[0].max(self.lattice.cells[1]);
@@ -283,13 +325,13 @@ impl Terrain {
 
     /// Whether a cascade holds no ground, and so nothing that throws shadows.
     pub(super) fn is_nothing_in(&self, cascade: usize) -> bool {
-        let Seen { patches, beyond, sides } = &self.seen[cascade + 1];
+        let Seen { patches, beyond, sides, .. } = &self.seen[cascade + 1];
         patches.count + beyond.count + sides.count == 0
     }
 
     /// Triangles of the last picture.
     pub(super) fn triangles(&self) -> u64 {
-        let Seen { patches, beyond, sides } = &self.seen[0];
+        let Seen { patches, beyond, sides, .. } = &self.seen[0];
         let quads = u64::from(QUADS) * u64::from((patches.count + beyond.count) * QUADS + sides.count);
         2 * quads
     }

@@ -32,7 +32,9 @@ fn sliding_point(patch_of: vec4<f32>, slot: u32, at: vec2<f32>, farthest: vec2<f
     // The parabola through the ground at the beginning of the slide, half-way and at its end.
     let left = 1.0 - share;
     let height = 4.0 * share * left * heights.y + (left - share) * (left * heights.x - share * neighbour);
-    return point_of(place, height);
+    // No higher and no lower than those, by which it is known what hides what.
+    let least = min(min(heights.x, heights.y), neighbour);
+    return point_of(place, clamp(height, least, max(max(heights.x, heights.y), neighbour)));
 }
 
 // A point of a patch that lies within the border, or is drawn back onto it.

@@ -128,10 +128,15 @@ impl Surroundings {
         let of_far =
             |[height, uneven]: &[f32; 2], z: f32| height + uneven * lowered(z - mean, highest_far)[0];
         let lowest = far.iter().map(|far| of_far(far, low)).fold(2.0 * edge[0] - high, f32::min);
-        let highest = far.iter().map(|far| of_far(far, high)).fold(f32::MIN, f32::max);
+        // Nothing stands further above the mean, whatever becomes of the landscape.
+        let highest =
+            far.iter().map(|[height, uneven]| height + uneven * highest_far).fold(f32::MIN, f32::max);
         let highest = highest.max(sea.unwrap_or(highest));
+        // Between the middles of its cells ground is higher and lower than there, but not than its control points are.
+        let [least, most] = bed.control.iter().fold([low, high], |[a, b], z| [a.min(*z), b.max(*z)]);
+        let between = 2.0 * (low - least).max(most - high);
         let cells = [size.columns as f32, size.rows as f32];
-        let bounds = [lowest.min(low), highest.max(2.0 * edge[1] - low).max(high)];
+        let bounds = [lowest.min(low) - between, highest.max(2.0 * edge[1] - low).max(high) + between];
         Self { cells, sea, mean, highest: highest_far, far, bounds, highest_far: highest }
     }
 

@@ -40,6 +40,8 @@ pub(super) struct Plants {
     /// Whether the trees of woods are drawn one by one for the next camera.
     has_trees: bool,
     pipelines: Pipelines,
+    /// Height in metres of the tallest scattered plant.
+    pub(super) tallest: f32,
 }
 
 impl Plants {
@@ -56,10 +58,12 @@ impl Plants {
             return Ok(None);
         }
         let pipelines = Pipelines::new(gpu, scene, layouts, samples)?;
+        let sizes = landscape.all_plants().flat_map(|(_, plants)| &plants.plants).map(|plant| plant.size);
+        let tallest = sizes.fold(0.0, f32::max);
         let sets = grown.map(|(_, plants)| Batch::new(gpu, scene, (landscape, plants), &pipelines.groups));
         let sets = sets.collect::<Result<_, _>>()?;
         let wood = if scene.has_woods() { Some(Wood::new(gpu, &pipelines)?) } else { None };
-        Ok(Some(Self { sets, wood, has_trees: false, pipelines }))
+        Ok(Some(Self { sets, wood, has_trees: false, pipelines, tallest }))
     }
 
     /// How far the trees of woods are drawn one by one, in metres, where the nearest ground in sight is so far away: not at all
