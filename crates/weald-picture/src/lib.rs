@@ -62,6 +62,6 @@ pub use view::albedo;
 #[doc(hidden)]
 pub use view::twin_calls;
 pub use view::{
-    Around, Camera, Follow, GroundColour, Haze, HeightsBeyond, LitScene, Ray, RayMarcher, Rim,
-    SPACING_OF_TREES, SceneTexture, TextureKind, Tree, View,
+    Around, Camera, Follow, GroundColour, HeightsBeyond, LitScene, Ray, RayMarcher, Rim, SPACING_OF_TREES,
+    SceneTexture, TextureKind, Tree, View,
 };

@@ -64,7 +64,6 @@ mod woods;
 pub use albedo::albedo;
 pub use camera::Camera;
 pub use follow::Follow;
-pub use haze::Haze;
 pub use keys::{Around, GroundColour, View};
 pub use lit_scene::LitScene;
 pub use maps::{SceneTexture, TextureKind};

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use weald::Error;
 use weald::edit::Area;
 use weald::error::{DeviceError, DeviceErrorKind};
-use weald::picture::{Haze, LitScene, SceneTexture, TextureKind};
+use weald::picture::{LitScene, SceneTexture, TextureKind};
 
 use super::frustum::Heights;
 use super::lattice::Lattice;
@@ -31,7 +31,6 @@ pub struct SceneUpdate {
     errors: Vec<f32>,
     has_horizon: bool,
     cloud_base: Option<f32>,
-    haze: Haze,
 }
 
 /// Some rows of a layer of a map.
@@ -62,7 +61,6 @@ impl SceneUpdate {
             errors: errors(top, lattice.all_levels()),
             has_horizon: beyond.is_some(),
             cloud_base: scene.cloud_base(),
-            haze: scene.haze(),
             rows: None,
             of_rows: scene.cells()[1],
             maps,
@@ -157,11 +155,6 @@ impl Coming {
     /// The height at which clouds begin.
     pub(super) fn cloud_base(&self) -> Option<f32> {
         self.update.cloud_base
-    }
-
-    /// The haze.
-    pub(super) fn haze(&self) -> Haze {
-        self.update.haze
     }
 
     /// The heights of the ground, and the errors of its levels.

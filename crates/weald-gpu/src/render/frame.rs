@@ -131,12 +131,12 @@ impl Frame {
     pub(super) fn write_cascade(
         &self,
         into: &mut Upload<'_>,
-        (number, (stand, slides)): (usize, (Viewpoint, [[f32; 4]; MAX_LEVELS])),
+        (number, stand): (usize, Viewpoint),
         shown: (&Camera, [u32; 2]),
         drawn: &Drawn,
     ) {
         let own = if let Some([x, y, z, _]) = drawn.cascades.detail_points.get(number) {
-            Drawn { stand, slides, detail_from: [*x, *y, *z], ..*drawn }
+            Drawn { stand, detail_from: [*x, *y, *z], ..*drawn }
         } else {
             Drawn { slides: [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS], seconds: 0.0, ..*drawn }
         };

@@ -121,6 +121,11 @@ impl Heights {
         self.beyond.map_or(self.highest(), |(beyond, _)| beyond.all[1].max(self.highest()))
     }
 
+    /// Metres by which heights may have risen or sunk since they were known.
+    pub(crate) fn slack(&self) -> f32 {
+        self.slack
+    }
+
     /// Height of what the ground stands on.
     pub(crate) fn base(&self) -> f32 {
         self.base

@@ -182,7 +182,7 @@ mod tests {
 
     fn everything(cells: [f32; 2], from: Viewpoint) -> (Lattice, Vec<Patch>) {
         let lattice = Lattice::new(cells, [10.0; 2]);
-        let ranges = Ranges::new(&[3.0; MAX_LEVELS], (1.0, 10.0), |_| 1.0);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
         let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         (lattice, patches)
     }
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn ground_around_goes_on_for_seven_sides_and_covers_each_place_once() {
         let lattice = Lattice::new([150.0, 90.0], [10.0; 2]).with_horizon(true);
-        let ranges = Ranges::new(&[3.0; MAX_LEVELS], (1.0, 10.0), |_| 1.0);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
         let from = Viewpoint { place: [70.0, 40.0], above: 30.0 };
         let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         let mut beyond = 0;

@@ -64,7 +64,8 @@ impl Search<'_> {
             return None;
         }
         let [low, mut high] = self.heights.box_of(corner, side);
-        high[2] += self.stands;
+        // What hangs on this distance is the same for ground that is followed as for the same ground that is not.
+        high[2] += self.stands - self.heights.slack();
         let away = |axis: usize| (low[axis] - self.from[axis]).max(self.from[axis] - high[axis]).max(0.0);
         self.view.meets(&[low, high]).then(|| away(0).hypot(away(1)).hypot(away(2)))
     }

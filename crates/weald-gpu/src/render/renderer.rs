@@ -225,7 +225,6 @@ impl Renderer {
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
         self.forget_light();
         self.cloud_base = coming.cloud_base();
-        self.terrain.take_haze(coming.haze());
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
             self.terrain.take(heights, errors);
@@ -361,7 +360,7 @@ impl Renderer {
         for number in (0..CASCADES).filter(|&number| drawn.stale[number]) {
             let stand = if number == CASCADES - 1 {
                 self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
-                (drawn.stand, drawn.slides)
+                drawn.stand
             } else {
                 self.terrain.prepare_cascade(into, number, (camera, size), &drawn.cascades)?
             };

@@ -205,7 +205,7 @@ mod tests {
     fn selected(top: &SceneTexture, camera: &Camera) -> (Vec<Patch>, Vec<Patch>) {
         let lattice = Lattice::new([CELLS as f32; 2], [METRES; 2]);
         let heights = Heights::new(top, [METRES; 2], -200.0);
-        let ranges = Ranges::new(&[2.0; MAX_LEVELS], (1.0, METRES), |_| 1.0);
+        let ranges = Ranges::new(&[2.0; MAX_LEVELS], 1.0, METRES);
         let place = [0.5 + camera.eye[0] / METRES, 0.5 - camera.eye[1] / METRES];
         let from = Viewpoint { place, above: 0.0 };
         let all = lattice.select(from, &ranges, &heights, &Frustum::of(camera));

@@ -1,7 +1,7 @@
 //! How far each level of detail is used: as far as the next one would be seen to be wrong.
 //!
 //! The error of a level is how far straight edges of its spacing lie off the ground. A level ends where the error of the
-//! next one takes less than so many pixels, or as much more than that as haze leaves less of its contrast. Ranges at least double from level to level, and are several squares wide,
+//! next one takes less than so many pixels. Ranges at least double from level to level, and are several squares wide,
 //! which is what keeps neighbours within one level of each other and cracks away.
 
 use weald::picture::SceneTexture;
@@ -18,9 +18,6 @@ const SLIDE: f32 = 0.6;
 /// Share of the places at which the error is less than what counts.
 const COUNTS: f64 = 0.99;
 
-/// How often the interval is halved in which a range is sought.
-const BISECTIONS: usize = 16;
-
 /// Most places at which an error is looked for.
 const MAX_SAMPLES: usize = 20_000;
 
@@ -32,13 +29,11 @@ pub(crate) struct Ranges {
 
 impl Ranges {
     /// For errors in metres by level, the distance at which a metre is one pixel over the pixels that an error may
-    /// take, the longer side of a cell in metres, and the share of contrast that haze leaves of what is so many metres away: where
-    /// a third of it is left, three times the error is seen as much.
-    pub(crate) fn new(errors: &[f32], (reach, cell): (f32, f32), contrast_left: impl Fn(f32) -> f32) -> Self {
+    /// take, and the longer side of a cell in metres.
+    pub(crate) fn new(errors: &[f32], reach: f32, cell: f32) -> Self {
         let mut ends: Vec<f32> = Vec::with_capacity(errors.len());
         for level in 0..errors.len() {
-            let clear = errors.get(level + 1).copied().unwrap_or(f32::INFINITY) * reach;
-            let seen = in_haze(clear, &contrast_left);
+            let seen = errors.get(level + 1).copied().unwrap_or(f32::INFINITY) * reach;
             let wide = MIN_RANGE * spacing(level) * cell;
             let doubled = ends.last().map_or(0.0, |end| 2.0 * end);
             ends.push(seen.max(wide).max(doubled));
@@ -61,19 +56,6 @@ impl Ranges {
             [before + SLIDE * (end - before), end, 0.0, 0.0]
         })
     }
-}
-
-/// The distance from which on as much is seen of an error through haze as without it from so far away.
-fn in_haze(clear: f32, contrast_left: impl Fn(f32) -> f32) -> f32 {
-    if !clear.is_finite() {
-        return clear;
-    }
-    let mut bounds = [0.0, clear];
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (bounds[0] + bounds[1]);
-        bounds[usize::from(clear * contrast_left(middle) <= middle)] = middle;
-    }
-    bounds[1]
 }
 
 /// The error in metres of each level of a ground with such control points.
@@ -132,24 +114,8 @@ mod tests {
     }
 
     #[test]
-    fn through_haze_levels_end_where_as_much_is_seen_of_their_errors() {
-        let errors = [0.0, 0.5, 20.0, 800.0];
-        let left = |metres: f32| (-metres / 5000.0).exp();
-        let [clear, hazy] =
-            [Ranges::new(&errors, (1000.0, 1.0), |_| 1.0), Ranges::new(&errors, (1000.0, 1.0), left)];
-        for (level, error) in (0..3).zip(&errors[1..]) {
-            let end = hazy.end(level);
-            assert!(end <= clear.end(level));
-            // One pixel in clear air, as many more as haze leaves less of.
-            let doubled = level > 0 && end == 2.0 * hazy.end(level - 1);
-            assert!(doubled || (error * 1000.0 / end * left(end) - 1.0).abs() < 0.01, "{level}: {end}");
-        }
-        assert!(hazy.end(2) < 0.5 * clear.end(2));
-    }
-
-    #[test]
     fn ranges_at_least_double_and_slides_lie_between_them() {
-        let ranges = Ranges::new(&[0.0, 0.1, 40.0, 41.0, 42.0], (100.0, 10.0), |_| 1.0);
+        let ranges = Ranges::new(&[0.0, 0.1, 40.0, 41.0, 42.0], 100.0, 10.0);
         let slides = ranges.slides();
         for (level, &[start, end, ..]) in slides.iter().enumerate().take(4).skip(1) {
             assert!(ranges.end(level) >= 2.0 * ranges.end(level - 1));

@@ -1,7 +1,7 @@
 //! The patches of ground that a camera sees, on the device.
 
 use weald::Error;
-use weald::picture::{Camera, Haze, LitScene, Rim, SceneTexture};
+use weald::picture::{Camera, LitScene, Rim, SceneTexture};
 use wgpu::{CommandEncoderDescriptor, RenderPass};
 
 use super::cascades::{CASCADES, Cascades, TREE, ViewedFrom};
@@ -9,7 +9,6 @@ use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
 use super::instances::{Indices, Instances};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
-use super::levels::MAX_LEVELS;
 use super::nearest::nearest_ground;
 use super::patch_heights::{HEIGHTS_GROUP, PatchHeights};
 use super::skyline::seen_patches;
@@ -34,7 +33,6 @@ pub(super) struct Terrain {
     has_holes: bool,
     /// Direction of the sun.
     sun: [f32; 3],
-    haze: Haze,
     grid: Indices,
     wall: Indices,
     /// What the camera sees, and each cascade of the sun.
@@ -127,7 +125,6 @@ impl Terrain {
             is_empty: scene.is_empty(),
             has_holes: scene.has_holes(),
             sun: scene.sun(),
-            haze: scene.haze(),
             grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
             seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
@@ -147,7 +144,7 @@ impl Terrain {
         Shown { detail_from, nearest, woods, heights_are_known }: Shown,
     ) -> Result<Drawn, Error> {
         let stand = self.viewpoint(detail_from);
-        let ranges = self.ranges((camera, size), camera.eye[2]);
+        let ranges = self.ranges(camera, size);
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let trees = (woods > 0.0).then_some(pixel_angle);
         self.patch_heights.begin();
@@ -176,28 +173,25 @@ impl Terrain {
         })
     }
 
-    /// Selects what a cascade of a picture holds that a camera changes, and says from where and how its levels slide.
+    /// Selects what a cascade of a picture holds that a camera changes, and says from where.
     pub(super) fn prepare_cascade(
         &mut self,
         into: &mut Upload<'_>,
         number: usize,
         (camera, size): (&Camera, [u32; 2]),
         cascades: &Cascades,
-    ) -> Result<(Viewpoint, [[f32; 4]; MAX_LEVELS]), Error> {
+    ) -> Result<Viewpoint, Error> {
         let [x, y, z, _] = cascades.detail_points[number];
-        // By that height and not by the camera's: a cascade is the same whatever was drawn before.
-        let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges((camera, size), z));
+        let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges(camera, size));
         self.select(into, (number + 1, &cascades.column(number)), stand, &ranges)?;
-        Ok((stand, ranges.slides()))
+        Ok(stand)
     }
 
-    /// The distances up to which levels of detail reach in a picture, seen from a height. Haze thins with height: what stands above
-    /// the eye is seen through that half-way up.
-    fn ranges(&self, (camera, size): (&Camera, [u32; 2]), height: f32) -> Ranges {
+    /// The distances up to which levels of detail reach in a picture.
+    fn ranges(&self, camera: &Camera, size: [u32; 2]) -> Ranges {
         let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
-        let height = height + 0.5 * (self.heights.highest_around() - height).max(0.0);
         let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
-        Ranges::new(&self.errors, (reach, cell), |metres: f32| self.haze.contrast_left(height, metres))
+        Ranges::new(&self.errors, reach, cell)
     }
 
     /// A point from which detail is chosen.
@@ -293,11 +287,6 @@ impl Terrain {
     /// Takes another ground of the same size: its heights, and the errors of its levels.
     pub(super) fn take(&mut self, heights: Heights, errors: Vec<f32>) {
         (self.heights, self.errors) = (heights, errors);
-    }
-
-    /// Takes other haze.
-    pub(super) fn take_haze(&mut self, haze: Haze) {
-        self.haze = haze;
     }
 
     /// Whether the camera of the last picture is above the ground.

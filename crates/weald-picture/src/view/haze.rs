@@ -41,7 +41,7 @@ const BEYOND: f32 = 0.5;
 
 /// Haze over a landscape.
 #[derive(Clone, Copy, Debug)]
-pub struct Haze {
+pub(super) struct Haze {
     /// Extinction of green at the lowest ground, a metre.
     pub(super) extinction: f32,
     pub(super) scale_height: f32,
@@ -65,15 +65,6 @@ impl Haze {
     /// The same up to the horizon of an eye so many metres above the ground.
     pub(super) fn up_to_the_horizon(self, height: f32) -> Self {
         Self { reach: (2.0 * EARTH * height.max(0.0)).sqrt().max(NEAREST_HORIZON), ..self }
-    }
-
-    /// The share of contrast, 0 to 1, that is left of what is seen from a height of so many metres, so many metres away and
-    /// as high, in the colour of which haze takes least.
-    pub fn contrast_left(self, height: f32, metres: f32) -> f32 {
-        let level = Ray { from: [0.0, 0.0, height], direction: [1.0, 0.0, 0.0] };
-        libm::expf(
-            -TINT.into_iter().fold(f32::INFINITY, f32::min) * self.extinction * self.column(&level, metres),
-        )
     }
 
     /// The light that arrives at the start of a ray, of `radiance` that starts `ray_length` metres along it.

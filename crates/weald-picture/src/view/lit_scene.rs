@@ -154,11 +154,6 @@ impl LitScene {
         self.camera = camera;
     }
 
-    /// Its haze.
-    pub fn haze(&self) -> Haze {
-        self.haze
-    }
-
     /// Columns and rows of the surfaces.
     pub fn cells(&self) -> [usize; 2] {
         let size = self.setting.terrain.top.size();
