@@ -28,8 +28,9 @@ const STRIDES: f32 = 8.0;
 const EYE_STRIDES: [f32; CASCADES - 1] = [2.0, 8.0, 32.0];
 const EYE_STRIDE: f32 = 1.0 / 16.0;
 
-/// Metres that trees of woods are high at most. Among them, where their shadows would leap, the point moves by so little that none is seen higher
-/// or lower by more than so many pixels; where that is less than so many metres, it is the camera's.
+/// Metres that trees of woods are high at most. Where they are drawn one by one their shadows would leap: the point moves by so
+/// little that none is seen higher or lower by more than so many pixels, and where that is less than so many metres, it is the
+/// camera's.
 pub(super) const TREE: f32 = 25.0;
 const TREE_PIXELS: f32 = 1.0;
 const LEAST_STRIDE: f32 = 0.25;
@@ -135,12 +136,12 @@ impl ViewedFrom<'_> {
     /// From where is chosen what a cascade holds, and how far that is from where it is looked at, at most.
     fn detail_point(&self, cascade: usize) -> [f32; 4] {
         let stride = self.stride(cascade);
-        let [x, y, z] = if stride < LEAST_STRIDE {
-            self.detail_from
-        } else {
-            self.detail_from.map(|at| (at / stride).round() * stride)
-        };
-        [x, y, z, if stride < LEAST_STRIDE { 0.0 } else { 0.5 * stride * 3.0_f32.sqrt() }]
+        if stride < LEAST_STRIDE {
+            let [x, y, z] = self.detail_from;
+            return [x, y, z, 0.0];
+        }
+        let [x, y, z] = self.detail_from.map(|at| (at / stride).round() * stride);
+        [x, y, z, 0.5 * stride * 3.0_f32.sqrt()]
     }
 
     /// Metres by which that point moves: a power of two, so that it rests while the nearest ground comes nearer.

@@ -94,6 +94,13 @@ impl Lattice {
         [0.5 - 0.5 * Self::side(self.all_levels() - 1); 2]
     }
 
+    /// The corners of the quarters of a square, and their side.
+    pub(super) fn quarters(corner: [f32; 2], level: usize) -> ([[f32; 2]; 4], f32) {
+        let half = 0.5 * Self::side(level);
+        let quarters = [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]];
+        (quarters.map(|[x, y]| [corner[0] + x, corner[1] + y]), half)
+    }
+
     /// Whether a square of such a corner has some ground.
     pub(super) fn has_ground(&self, corner: [f32; 2]) -> bool {
         self.around > 0 || (0..2).all(|axis| corner[axis] < self.cells[axis] + 0.5)
@@ -162,9 +169,8 @@ impl Selection<'_> {
         if !self.is_drawn(corner, side) {
             return;
         }
-        let half = 0.5 * side;
-        for [x, y] in [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]] {
-            let quarter = [corner[0] + x, corner[1] + y];
+        let (quarters, half) = Lattice::quarters(corner, level);
+        for quarter in quarters {
             let distance = self.lattice.distance(self.from, quarter, half);
             if level > 0 && distance <= self.ranges.end(level - 1) {
                 self.square(quarter, level - 1);

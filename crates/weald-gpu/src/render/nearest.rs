@@ -46,12 +46,9 @@ impl Search<'_> {
             self.least = distance;
             return;
         }
-        let half = 0.5 * side;
-        let quarters = [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]];
-        let mut quarters = quarters.map(|[x, y]| {
-            let corner = [corner[0] + x, corner[1] + y];
-            (self.distance(corner, half).unwrap_or(f32::INFINITY), corner)
-        });
+        let (quarters, half) = Lattice::quarters(corner, level);
+        let mut quarters =
+            quarters.map(|corner| (self.distance(corner, half).unwrap_or(f32::INFINITY), corner));
         quarters.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, corner) in quarters {
             self.square(corner, level - 1);
