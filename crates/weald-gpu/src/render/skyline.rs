@@ -245,6 +245,24 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_certain_counts_for_what_is_farther_away() {
+        let camera = Camera::looking([0.0; 3], [0.0, 1.0, 0.0], [0.6, 0.4]);
+        let filled = |heights: [f32; 2]| {
+            let mut skyline = Skyline::of(&camera).expect("it looks ahead");
+            skyline.fill(&Span { columns: [0.5, 20.5], ahead: [100.0, 200.0], heights });
+            assert_eq!([0, 20].map(|column| skyline.filled[column]), [f32::NEG_INFINITY; 2], "not wholly");
+            skyline
+        };
+        let (above, below) = (filled([10.0, 20.0]), filled([-10.0, 20.0]));
+        assert_eq!([above.filled[1], below.filled[19]], [10.0 / 200.0, -10.0 / 100.0]);
+        let hides = |skyline: &Skyline, high: f32| {
+            skyline.hides(&Span { columns: [1.5, 9.5], ahead: [400.0, 500.0], heights: [-99.0, high] })
+        };
+        assert!(hides(&above, 19.0) && !hides(&above, 22.0), "22 m are steeper from the nearer end");
+        assert!(hides(&below, -55.0) && !hides(&below, -45.0), "-45 m are less steep from the farther end");
+    }
+
+    #[test]
     fn land_beyond_a_ridge_is_left_out_and_the_ridge_is_not() {
         let top = hills();
         let place = [128.0, 200.0];
