@@ -59,6 +59,7 @@ impl Fluvial {
             friction: self.friction as f32,
             gathering: (self.gathering / cell) as f32,
             channel_width: (self.channel_width * (cell / seconds).sqrt()) as f32,
+            lateral_wear: self.lateral_wear as f32,
             erodibility: (self.erodibility * years * cell) as f32,
             threshold: (self.threshold * by_area) as f32,
             settling: (self.settling * seconds / cell) as f32,
@@ -70,7 +71,6 @@ impl Fluvial {
             open: f32::from(u8::from(self.boundary == Boundary::Open)),
             half: (self.cover / cell) as f32,
             padding_a: 0.0,
-            padding_b: 0.0,
         }
     }
 

@@ -10,6 +10,7 @@ mod flow_paths;
 mod flow_peers;
 mod flow_tiled;
 mod fluvial;
+mod fluvial_banks;
 mod fluvial_grid;
 mod fluvial_ground;
 mod layered_equations;

@@ -79,7 +79,8 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let held = max(constants.friction * discharge.size, power);
     if (inside(cell)) {
         fluxes[at] = vec4<f32>(axes.x, axes.z, diagonals.x, diagonals.z);
-        carried[at] = vec4<f32>(found * kept, entrained, flowed * kept, 0.0);
+        let across = levelled(discharge.size, constants.lateral_wear * entrained, level[at].z + constants.thin);
+        carried[at] = vec4<f32>(found * kept, entrained, flowed * kept, across);
         resistance[at] = 0.5 * (resistance[at] + held / discharge.gathered * occupied);
     }
 }

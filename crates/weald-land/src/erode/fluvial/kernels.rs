@@ -1,6 +1,6 @@
 //! What one cell becomes in a step of [`super`], which has the equations and their sources.
 
-use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, larger, outflow, power};
+use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, larger, levelled, outflow, power};
 use crate::erode::pipes::without_negligible;
 use weald_engine::kernel;
 
@@ -240,9 +240,10 @@ kernel! {
             surface, surface_east, surface_west, surface_south, surface_north,
             surface_south_east, surface_north_west, surface_south_west, surface_north_east,
         }
-        writes { entrained, resistance }
+        writes { entrained, resistance, across }
         constants {
-            friction: f32, gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32,
+            friction: f32, gathering: f32, channel_width: f32, lateral_wear: f32, erodibility: f32, threshold: f32,
+            deepest: f32, thin: f32,
         }
     }
     fn cell() {
@@ -271,6 +272,7 @@ kernel! {
         let drop = power * (discharge.gathered * depth * all);
         let drop = if discharge.size > 0.0 { drop.min(MAX_DROP) } else { 0.0 };
         entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
+        across = levelled(discharge.size, lateral_wear * entrained, rained + thin, channel_width);
         // Friction times discharge; power is slope times discharge.
         let found = larger(friction * discharge.size, power) * (water * all) * occupied;
         resistance = 0.5 * (resistance_before + found);
@@ -328,11 +330,60 @@ kernel! {
     }
 }
 
+/// What comes over an edge from the next cell by the wear of banks; `here` and `next` are ground, what levels across channels, and
+/// depth of water on its two sides. Water wears a bank no higher than it stands.
+#[inline(always)]
+fn washed(here: [f32; 3], next: [f32; 3], valid: [f32; 2]) -> f32 {
+    let step = next[0] - here[0];
+    let deep = larger(here[2], next[2]);
+    let worn = larger(-deep, if step < deep { step } else { deep });
+    0.5 * (here[1] + next[1]) * worn * (valid[0] * valid[1])
+}
+
+kernel! {
+    /// What the wear of banks brings over the eastern, southern, south-eastern and south-western edge.
+    pub(crate) struct Banks {
+        reads {
+            ground, ground_east, ground_south, ground_south_east, ground_south_west,
+            across, across_east, across_south, across_south_east, across_south_west,
+            water, water_east, water_south, water_south_east, water_south_west,
+            valid, valid_east, valid_south, valid_south_east, valid_south_west,
+        }
+        writes { bank_east, bank_south, bank_diagonal, bank_antidiagonal }
+    }
+    fn cell() {
+        let here = [ground, across, water];
+        bank_east = AXIS * washed(here, [ground_east, across_east, water_east], [valid, valid_east]);
+        bank_south = AXIS * washed(here, [ground_south, across_south, water_south], [valid, valid_south]);
+        let next = [ground_south_east, across_south_east, water_south_east];
+        bank_diagonal = DIAGONAL * washed(here, next, [valid, valid_south_east]);
+        let next = [ground_south_west, across_south_west, water_south_west];
+        bank_antidiagonal = DIAGONAL * washed(here, next, [valid, valid_south_west]);
+    }
+}
+
+kernel! {
+    /// Change of the ground after the wear of banks.
+    pub(crate) struct Washed {
+        reads {
+            settled, bank_east, bank_east_west, bank_south, bank_south_north, bank_diagonal,
+            bank_diagonal_north_west, bank_antidiagonal, bank_antidiagonal_north_east,
+        }
+        writes { washed }
+    }
+    fn cell() {
+        let axes = (bank_east - bank_east_west) + (bank_south - bank_south_north);
+        let diagonals =
+            (bank_diagonal - bank_diagonal_north_west) + (bank_antidiagonal - bank_antidiagonal_north_east);
+        washed = settled + (axes + diagonals);
+    }
+}
+
 kernel! {
     /// Ground after creep and slides: along each edge by the mean unrest of its two cells.
     pub(crate) struct Slid {
         reads {
-            settled, valid, ground, ground_east, ground_west, ground_south, ground_north,
+            washed, valid, ground, ground_east, ground_west, ground_south, ground_north,
             ground_south_east, ground_north_west, ground_south_west, ground_north_east,
             unrest, unrest_east, unrest_west, unrest_south, unrest_north,
             unrest_south_east, unrest_north_west, unrest_south_west, unrest_north_east,
@@ -349,6 +400,6 @@ kernel! {
             + from(ground_north_west, unrest_north_west, valid_north_west))
             + (from(ground_south_west, unrest_south_west, valid_south_west)
                 + from(ground_north_east, unrest_north_east, valid_north_east));
-        change = settled + (AXIS * axes + DIAGONAL * diagonals) * valid;
+        change = washed + (AXIS * axes + DIAGONAL * diagonals) * valid;
     }
 }

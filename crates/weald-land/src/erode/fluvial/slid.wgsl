@@ -1,10 +1,15 @@
 
-// Ground after creep and slides: along each edge by the mean unrest of its two cells.
+// Ground after creep, slides and the wear of banks: along each edge by the mean of its two cells.
 
-/// What comes over an edge from another cell.
+/// What comes over an edge from another cell. Water wears a bank no higher than it stands.
 fn from_cell(cell: vec2<i32>, next: vec2<i32>) -> f32 {
-    let share = 0.5 * (unrest[index(cell)] + unrest[index(next)]) * valid(next);
-    return exact(share * (ground(next) - ground(cell)));
+    let here = carried[index(cell)];
+    let there = carried[index(next)];
+    let step = ground(next) - ground(cell);
+    let deep = max(here.z, there.z);
+    let washed = max(-deep, min(step, deep));
+    let slides = exact(0.5 * (unrest[index(cell)] + unrest[index(next)]) * step);
+    return exact((slides + 0.5 * (here.w + there.w) * washed) * valid(next));
 }
 
 @compute @workgroup_size(16, 16)
