@@ -38,6 +38,7 @@
 //! in a second of flow is multiplied by the years over the hours (the morphological factor of Roelvink 2006, doi
 //! 10.1016/j.coastaleng.2005.11.002).
 
+mod banks;
 pub(crate) mod edges;
 pub(crate) mod kernels;
 mod program;
@@ -50,8 +51,9 @@ use std::sync::Arc;
 use super::pipeline::{Equations, Pipeline};
 use super::springs::Forcing;
 use super::sums;
+use banks::{Banks, Washed};
 use edges::{PIPE_AXIS, PIPE_DIAGONAL};
-use kernels::{Accelerate, Banks, Dried, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Washed, Wear};
+use kernels::{Accelerate, Dried, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Wear};
 use strata::{BOTTOMS, Mapped, Strata};
 use weald_core::material::MAX_MATERIALS;
 use weald_engine::machine::{Means, Part};

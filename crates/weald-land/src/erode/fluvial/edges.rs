@@ -94,20 +94,6 @@ pub(super) fn larger(a: f32, b: f32) -> f32 {
 /// Least share of the ground that channels take: trickles do not cut like knives.
 const LEAST_OCCUPIED: f32 = 0.01;
 
-/// Most by which the ground across a channel levels in a step, as a share of the step between two cells: what creeps
-/// and slides besides is stable with it.
-const MOST_LEVELLED: f32 = 0.2;
-
-/// Share of the step between two cells that levels across a channel which is wider than they are, for a
-/// discharge, what it takes up, and its depth.
-#[inline(always)]
-pub(super) fn levelled(discharge: f32, uptake: f32, depth: f32, channel_width: f32) -> f32 {
-    let width = channel_width * channel_width * discharge;
-    // Channels come to be wider than a cell evenly.
-    let wider = (width - 1.0).clamp(0.0, 1.0);
-    (uptake * (width * width) * wider / depth).min(MOST_LEVELLED)
-}
-
 /// What leaves a cell.
 #[inline(always)]
 pub(super) fn outflow(axes: [f32; 4], diagonals: [f32; 4]) -> f32 {

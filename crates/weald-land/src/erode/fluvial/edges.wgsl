@@ -13,7 +13,6 @@ const RETAINED_SHARE: f32 = 2e-6;
 const THINNEST: f32 = 1e-8;
 const MAX_SHARE_OF_DROP: f32 = 0.25;
 const MAX_DROP: f32 = 2.0;
-const MOST_LEVELLED: f32 = 0.2;
 const NEGLIGIBLE: f32 = 1e-20;
 
 const SOUTH_EAST: vec2<i32> = vec2<i32>(1, 1);
@@ -79,13 +78,6 @@ fn power_of(
     axes: vec4<f32>, diagonals: vec4<f32>, surface: f32, along_axes: vec4<f32>, along_diagonals: vec4<f32>,
 ) -> f32 {
     return max(given(axes, surface, along_axes) + given(diagonals, surface, along_diagonals), 0.0);
-}
-
-/// Share of the step between two cells that levels across a channel which is wider than they are.
-fn levelled(discharge: f32, uptake: f32, depth: f32) -> f32 {
-    let width = constants.channel_width * constants.channel_width * discharge;
-    let wider = clamp(width - 1.0, 0.0, 1.0);
-    return min(uptake * (width * width) * wider / depth, MOST_LEVELLED);
 }
 
 /// What leaves a cell.

@@ -1,6 +1,7 @@
 //! What one cell becomes in a step of [`super`], which has the equations and their sources.
 
-use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, larger, levelled, outflow, power};
+use super::banks::levelled;
+use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, larger, outflow, power};
 use crate::erode::pipes::without_negligible;
 use weald_engine::kernel;
 
@@ -327,55 +328,6 @@ kernel! {
         let slope = (0.5 * (AXIS * axes + DIAGONAL * diagonals)).sqrt();
         let rests = talus * repose;
         unrest = creep * loose + if slope > rests { slide * (slope - rests) / slope } else { 0.0 };
-    }
-}
-
-/// What comes over an edge from the next cell by the wear of banks; `here` and `next` are ground, what levels across channels, and
-/// depth of water on its two sides. Water wears a bank no higher than it stands.
-#[inline(always)]
-fn washed(here: [f32; 3], next: [f32; 3], valid: [f32; 2]) -> f32 {
-    let step = next[0] - here[0];
-    let deep = larger(here[2], next[2]);
-    let worn = larger(-deep, if step < deep { step } else { deep });
-    0.5 * (here[1] + next[1]) * worn * (valid[0] * valid[1])
-}
-
-kernel! {
-    /// What the wear of banks brings over the eastern, southern, south-eastern and south-western edge.
-    pub(crate) struct Banks {
-        reads {
-            ground, ground_east, ground_south, ground_south_east, ground_south_west,
-            across, across_east, across_south, across_south_east, across_south_west,
-            water, water_east, water_south, water_south_east, water_south_west,
-            valid, valid_east, valid_south, valid_south_east, valid_south_west,
-        }
-        writes { bank_east, bank_south, bank_diagonal, bank_antidiagonal }
-    }
-    fn cell() {
-        let here = [ground, across, water];
-        bank_east = AXIS * washed(here, [ground_east, across_east, water_east], [valid, valid_east]);
-        bank_south = AXIS * washed(here, [ground_south, across_south, water_south], [valid, valid_south]);
-        let next = [ground_south_east, across_south_east, water_south_east];
-        bank_diagonal = DIAGONAL * washed(here, next, [valid, valid_south_east]);
-        let next = [ground_south_west, across_south_west, water_south_west];
-        bank_antidiagonal = DIAGONAL * washed(here, next, [valid, valid_south_west]);
-    }
-}
-
-kernel! {
-    /// Change of the ground after the wear of banks.
-    pub(crate) struct Washed {
-        reads {
-            settled, bank_east, bank_east_west, bank_south, bank_south_north, bank_diagonal,
-            bank_diagonal_north_west, bank_antidiagonal, bank_antidiagonal_north_east,
-        }
-        writes { washed }
-    }
-    fn cell() {
-        let axes = (bank_east - bank_east_west) + (bank_south - bank_south_north);
-        let diagonals =
-            (bank_diagonal - bank_diagonal_north_west) + (bank_antidiagonal - bank_antidiagonal_north_east);
-        washed = settled + (axes + diagonals);
     }
 }
 

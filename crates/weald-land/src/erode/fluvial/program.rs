@@ -11,6 +11,7 @@ use weald_engine::program::{Content, Program, Uniforms};
 const FORCING: &str = include_str!("../forcing.wgsl");
 const SUMS: &str = include_str!("../sums.wgsl");
 const EDGES: &str = include_str!("edges.wgsl");
+const BANKS: &str = include_str!("banks.wgsl");
 const LEVEL: &str = include_str!("level.wgsl");
 const ACCELERATE: &str = include_str!("accelerate.wgsl");
 const SHARES: &str = include_str!("shares.wgsl");
@@ -119,10 +120,10 @@ pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program 
     draft.pass_of("level_of_water", &[LEVEL, inflow, evaporation]);
     draft.pass_of("accelerate", &[ACCELERATE]);
     draft.pass_of("share_out", &[WANTED, SHARES, ground, softness]);
-    draft.pass_of("flow", &[WANTED, FLOW]);
+    draft.pass_of("flow", &[WANTED, BANKS, FLOW]);
     draft.pass_of("wear", &[WEAR]);
     draft.pass_of("find_unrest", &[SETTLED_GROUND, UNREST, ground]);
-    draft.pass_of("slide", &[SETTLED_GROUND, SLID]);
+    draft.pass_of("slide", &[SETTLED_GROUND, BANKS, SLID]);
     draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;
     draft.shows("change", Some("depth"));
     draft.finish(reach)

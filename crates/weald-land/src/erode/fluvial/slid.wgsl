@@ -1,15 +1,17 @@
 
 // Ground after creep, slides and the wear of banks: along each edge by the mean of its two cells.
 
-/// What comes over an edge from another cell. Water wears a bank no higher than it stands.
+/// Ground of a cell, what levels across channels in it, and depth of its water.
+fn bank_at(cell: vec2<i32>) -> vec3<f32> {
+    let there = carried[index(cell)];
+    return vec3<f32>(ground(cell), there.w, there.z);
+}
+
+/// What comes over an edge from another cell.
 fn from_cell(cell: vec2<i32>, next: vec2<i32>) -> f32 {
-    let here = carried[index(cell)];
-    let there = carried[index(next)];
-    let step = ground(next) - ground(cell);
-    let deep = max(here.z, there.z);
-    let washed = max(-deep, min(step, deep));
-    let slides = exact(0.5 * (unrest[index(cell)] + unrest[index(next)]) * step);
-    return exact((slides + 0.5 * (here.w + there.w) * washed) * valid(next));
+    let share = 0.5 * (unrest[index(cell)] + unrest[index(next)]);
+    let slides = exact(share * (ground(next) - ground(cell)));
+    return exact((slides + washed(bank_at(cell), bank_at(next))) * valid(next));
 }
 
 @compute @workgroup_size(16, 16)
