@@ -26,8 +26,10 @@
 //! measured). A channel of `k √Q` has the discharge `q = Q / (k √Q)` a width, and so is `W = k² q` wide, which each of its
 //! cells knows by itself. Where that is more than a cell, ground creeps by `β E W² / h` more, with the uptake `E` and the
 //! depth `h`: what is taken up in the middle of a channel is made up for from its sides where the bed lies `h` higher within
-//! `√(2β)` of its width. Water wears a bank no higher than it stands. Where the flow has spread, `q` is small, and spreads no
-//! further: with `β` of 0.05 rivers of 16 to 256 m³/s come to be `k √Q` wide within a sixth, on cells of 5 and 10 m.
+//! `√(2β)` of its width. Water wears a bank no higher than it stands, and no edge
+//! that holds the base level; along the channel the bed levels as well, which on its gentle slopes is little. Where the flow
+//! has spread, `q` is small, and it spreads little further: with `β` of 0.05 rivers of 36 and 64 m³/s come to be `k √Q` wide within 6 %, on
+//! cells of 5 and 10 m, those of 256 m³/s a third wider.
 //!
 //! *Ground.* Unit stream power `ω = Σ f ΔH / width` (of the outflows, with the surface of the water: still water takes
 //! nothing up, and no pit digs itself) takes up `K (ω - ω_c)`; sediment settles with `v_s C` (Davy and Lague 2009, doi
@@ -101,7 +103,7 @@ uniform! {
         pub(crate) gathering: f32,
         /// Width of a channel over the root of its discharge.
         pub(crate) channel_width: f32,
-        /// Share of what is taken up that levels the ground across a channel.
+        /// How fast ground levels across a channel, `β`.
         pub(crate) lateral_wear: f32,
         /// Ground that a unit of power takes up.
         pub(crate) erodibility: f32,

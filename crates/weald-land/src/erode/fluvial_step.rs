@@ -65,8 +65,9 @@ parameters! {
         settling: f64 = 0.0005, range 0.0..=10.0, unit "m/s";
         /// Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
         channel_width: f64 = 4.0, range 0.01..=1000.0, unit "m";
-        /// How fast a river that is wider than a cell wears its banks, to how fast it wears its bed (β). By 0.05 it comes to be as wide as
-        /// `channel_width` says, whatever the cells; with 0 it only cuts down, and stays as narrow as a cell.
+        /// How fast a river that is wider than a cell wears its banks (β). By 0.05 it comes to be as wide as `channel_width` says,
+        /// whatever the cells; with 0 it only cuts down, and stays as narrow as a cell; more than 0.2 bends rivers back on fans.
+        /// Banks wear as the bed beside them does, whatever they are of.
         lateral_wear: f64 = 0.05, range 0.0..=10.0;
         /// Distance of the channels in which water gathers that runs down a slope as a sheet. Where cells are longer than that, what
         /// has gathered in a cell wears more than it would on finer ones: `coarsest` should be no longer.
@@ -259,6 +260,7 @@ pub(super) fn variants() -> Vec<Box<dyn Step>> {
         Box::new(Fluvial { region: painted(), sources: vec![Nested(source)], ..flood.clone() }),
         // Rivers many cells wide, which wear their banks.
         Box::new(Fluvial { channel_width: 30.0, lateral_wear: 0.5, ..flood.clone() }),
+        Box::new(Fluvial { channel_width: 3.0, ..several(&mapped) }),
         Box::new(several(&flood)),
         Box::new(several(&mapped)),
         Box::new(mapped),

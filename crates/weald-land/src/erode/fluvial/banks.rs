@@ -21,32 +21,33 @@ pub(super) fn levelled(discharge: f32, uptake: f32, depth: f32, channel_width: f
 /// What comes over an edge from the next cell by the wear of banks; `here` and `next` are ground, what levels across channels, and
 /// depth of water on its two sides. Water wears a bank no higher than it stands.
 #[inline(always)]
-fn washed(here: [f32; 3], next: [f32; 3], valid: [f32; 2]) -> f32 {
+fn washed(here: [f32; 3], next: [f32; 3], movable: [f32; 2]) -> f32 {
     let step = next[0] - here[0];
     let deep = larger(here[2], next[2]);
     let worn = larger(-deep, if step < deep { step } else { deep });
-    0.5 * (here[1] + next[1]) * worn * (valid[0] * valid[1])
+    0.5 * (here[1] + next[1]) * worn * (movable[0] * movable[1])
 }
 
 kernel! {
-    /// What the wear of banks brings over the eastern, southern, south-eastern and south-western edge.
+    /// What the wear of banks brings over the eastern, southern, south-eastern and south-western edge, between cells that water may
+    /// change: a border that holds the base level is not filled from its banks.
     pub(crate) struct Banks {
         reads {
             ground, ground_east, ground_south, ground_south_east, ground_south_west,
             across, across_east, across_south, across_south_east, across_south_west,
             water, water_east, water_south, water_south_east, water_south_west,
-            valid, valid_east, valid_south, valid_south_east, valid_south_west,
+            movable, movable_east, movable_south, movable_south_east, movable_south_west,
         }
         writes { bank_east, bank_south, bank_diagonal, bank_antidiagonal }
     }
     fn cell() {
         let here = [ground, across, water];
-        bank_east = AXIS * washed(here, [ground_east, across_east, water_east], [valid, valid_east]);
-        bank_south = AXIS * washed(here, [ground_south, across_south, water_south], [valid, valid_south]);
+        bank_east = AXIS * washed(here, [ground_east, across_east, water_east], [movable, movable_east]);
+        bank_south = AXIS * washed(here, [ground_south, across_south, water_south], [movable, movable_south]);
         let next = [ground_south_east, across_south_east, water_south_east];
-        bank_diagonal = DIAGONAL * washed(here, next, [valid, valid_south_east]);
+        bank_diagonal = DIAGONAL * washed(here, next, [movable, movable_south_east]);
         let next = [ground_south_west, across_south_west, water_south_west];
-        bank_antidiagonal = DIAGONAL * washed(here, next, [valid, valid_south_west]);
+        bank_antidiagonal = DIAGONAL * washed(here, next, [movable, movable_south_west]);
     }
 }
 
@@ -88,7 +89,7 @@ mod tests {
             let into = washed(river, bank, [1.0; 2]);
             assert!((into - 0.05 * worn).abs() < 1e-6, "{into} from a bank of {bank:?}");
             assert_eq!(washed(bank, river, [1.0; 2]), -into);
-            assert_eq!(washed(river, bank, [1.0, 0.0]), 0.0, "nothing comes from where there is no data");
+            assert_eq!(washed(river, bank, [1.0, 0.0]), 0.0, "nothing comes from where ground is held");
         }
     }
 }

@@ -3,6 +3,13 @@
 
 const MOST_LEVELLED: f32 = 0.2;
 
+/// 1 where water may change the ground; cells at an open edge hold the base level, at its corners too.
+fn may_change(cell: vec2<i32>) -> f32 {
+    let main = valid(cell + SOUTH_EAST) * valid(cell + NORTH_WEST);
+    let other = valid(cell + SOUTH_WEST) * valid(cell + NORTH_EAST);
+    return erodible(cell) * (1.0 - constants.open * (1.0 - main * other));
+}
+
 /// Share of the step between two cells that levels across a channel which is wider than they are.
 fn levelled(discharge: f32, uptake: f32, depth: f32) -> f32 {
     let width = constants.channel_width * constants.channel_width * discharge;

@@ -288,15 +288,15 @@ kernel! {
             base, change_before, carried, water, entrained, erodible,
             valid_south_east, valid_north_west, valid_south_west, valid_north_east,
         }
-        writes { settled, sediment, ground }
+        writes { settled, sediment, ground, movable }
         constants { settling: f32, thin: f32, open: f32 }
     }
     fn cell() {
         let diagonals = (valid_south_east * valid_north_west) * (valid_south_west * valid_north_east);
         // Cells at an open edge hold the base level, at its corners too.
-        let may_change = erodible * (1.0 - open * (1.0 - diagonals));
+        movable = erodible * (1.0 - open * (1.0 - diagonals));
         let left = (carried + entrained) * ((water + thin) / ((water + thin) + settling));
-        let changed = change_before - (left - carried) * may_change;
+        let changed = change_before - (left - carried) * movable;
         let taken = change_before - changed;
         let there = carried + taken >= 0.0;
         settled = if there { changed } else { change_before };

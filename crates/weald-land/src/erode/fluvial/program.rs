@@ -121,7 +121,7 @@ pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program 
     draft.pass_of("accelerate", &[ACCELERATE]);
     draft.pass_of("share_out", &[WANTED, SHARES, ground, softness]);
     draft.pass_of("flow", &[WANTED, BANKS, FLOW]);
-    draft.pass_of("wear", &[WEAR]);
+    draft.pass_of("wear", &[BANKS, WEAR]);
     draft.pass_of("find_unrest", &[SETTLED_GROUND, UNREST, ground]);
     draft.pass_of("slide", &[SETTLED_GROUND, BANKS, SLID]);
     draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;

@@ -11,7 +11,8 @@ fn bank_at(cell: vec2<i32>) -> vec3<f32> {
 fn from_cell(cell: vec2<i32>, next: vec2<i32>) -> f32 {
     let share = 0.5 * (unrest[index(cell)] + unrest[index(next)]);
     let slides = exact(share * (ground(next) - ground(cell)));
-    return exact((slides + washed(bank_at(cell), bank_at(next))) * valid(next));
+    let movable = may_change(cell) * may_change(next);
+    return exact(slides * valid(next) + washed(bank_at(cell), bank_at(next)) * movable);
 }
 
 @compute @workgroup_size(16, 16)

@@ -1,13 +1,6 @@
 
 // What the water takes from or gives to the ground.
 
-/// 1 where water may change the ground; cells at an open edge hold the base level, at its corners too.
-fn may_change(cell: vec2<i32>) -> f32 {
-    let main = valid(cell + SOUTH_EAST) * valid(cell + NORTH_WEST);
-    let other = valid(cell + SOUTH_WEST) * valid(cell + NORTH_EAST);
-    return erodible(cell) * (1.0 - constants.open * (1.0 - main * other));
-}
-
 @compute @workgroup_size(16, 16)
 fn wear(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let cell = cell_of(invocation);
