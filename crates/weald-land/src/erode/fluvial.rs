@@ -21,13 +21,13 @@
 //! that is less than their cell, water is that much deeper than on the mean of the cell, and its power acts on that much
 //! less ground. A sheet gathers in channels some metres apart, whatever the cell.
 //!
-//! *Banks.* What a stream moves moves down the slope across it as well. Without that a river on fine cells digs a canal of
+//! *Banks.* Sediment also drifts down the slope of the bed across a stream. Without that a river on fine cells digs a canal of
 //! one cell, whatever its discharge (Baar and others 2019, doi 10.1038/s41467-019-12753-x, on why models need it and for how much more of it than is
 //! measured). A channel of `k √Q` has the discharge `q = Q / (k √Q)` a width, and so is `W = k² q` wide, which each of its
 //! cells knows by itself. Where that is more than a cell, ground creeps by `β E W² / h` more, with the uptake `E` and the
 //! depth `h`: what is taken up in the middle of a channel is made up for from its sides where the bed lies `h` higher within
-//! `√(2β)` of its width. Water wears a bank no higher than it stands, and no edge
-//! that holds the base level; along the channel the bed levels as well, which on its gentle slopes is little. Where the flow
+//! `√(2β)` of its width. Of a bank that is higher than the water is deep only
+//! that depth is worn, and cells at an open edge, which hold the base level, are not. The bed levels along the channel as well, which on gentle slopes is little. Where the flow
 //! has spread, `q` is small, and it spreads little further: with `β` of 0.05 rivers of 36 and 64 m³/s come to be `k √Q` wide within 6 %, on
 //! cells of 5 and 10 m, those of 256 m³/s a third wider.
 //!

@@ -65,7 +65,7 @@ parameters! {
         settling: f64 = 0.0005, range 0.0..=10.0, unit "m/s";
         /// Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
         channel_width: f64 = 4.0, range 0.01..=1000.0, unit "m";
-        /// How fast a river that is wider than a cell wears its banks (β). By 0.05 it comes to be as wide as `channel_width` says,
+        /// How fast a river that is wider than a cell wears its banks (β). By 0.05 it comes to be about as wide as `channel_width` says,
         /// whatever the cells; with 0 it only cuts down, and stays as narrow as a cell; more than 0.2 bends rivers back on fans.
         /// Banks wear as the bed beside them does, whatever they are of.
         lateral_wear: f64 = 0.05, range 0.0..=10.0;

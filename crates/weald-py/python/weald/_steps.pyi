@@ -971,7 +971,7 @@ class Steps:
         channel_width: number, 0.01 to 1000 m; default 4.0
             Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
         lateral_wear: number, 0 to 10; default 0.05
-            How fast a river that is wider than a cell wears its banks (β). By 0.05 it comes to be as wide as `channel_width` says, whatever the cells; with 0 it only cuts down, and stays as narrow as a cell; more than 0.2 bends rivers back on fans. Banks wear as the bed beside them does, whatever they are of.
+            How fast a river that is wider than a cell wears its banks (β). By 0.05 it comes to be about as wide as `channel_width` says, whatever the cells; with 0 it only cuts down, and stays as narrow as a cell; more than 0.2 bends rivers back on fans. Banks wear as the bed beside them does, whatever they are of.
         gathering: number, 0.01 to 10000 m; default 40.0
             Distance of the channels in which water gathers that runs down a slope as a sheet. Where cells are longer than that, what has gathered in a cell wears more than it would on finer ones: `coarsest` should be no longer.
         friction: number, 0.0001 to 10; default 0.01
