@@ -17,6 +17,7 @@ mod clouds;
 mod cover;
 mod crags;
 mod crown_relief;
+mod drawn_rivers;
 mod flow;
 mod follow;
 mod fractures;

@@ -39,9 +39,11 @@ const SLICES: [f32; 2] = [24.0, 72.0];
 const STEP: f32 = 55.0;
 const BLURRED: f32 = 0.02;
 
-/// Where noise says that a side may be near, so many more levels are looked at between two, and how much below a side that is.
+/// Where noise says that a side may be near, so many more levels are looked at between two; how much below a side that is at least,
+/// and for each metre from one level to the next: what lies between two levels far apart would be seen by some rays and missed by
+/// those beside them, and heaps low over the horizon end in combs.
 const FINER: f32 = 4.0;
-const SIDE: f32 = 0.1;
+const SIDE: [f32; 2] = [0.1, 0.0008];
 
 /// About the most by which noise changes in a metre: so far from where puffs may be levels are passed over.
 const STEEPEST: f32 = 0.0019;
@@ -62,7 +64,7 @@ const PUFF_OCTAVES: u32 = 7;
 const PUFF_GAIN: f32 = 0.72;
 const PUFF_MEAN: f32 = 0.2;
 const NEAR: f32 = 0.45;
-const HELD: [f32; 2] = [-0.02, 0.2];
+const HELD: [f32; 2] = [-0.16, 0.1];
 const PUFF_SEED: u32 = 0x77;
 
 /// Shares of a heap's height between which it becomes puffed: its base is ragged, but less than its top.
@@ -219,13 +221,14 @@ impl Clouds {
             return CloudLight::NONE;
         };
         let [count, spacing] = levels([first, length], blur);
+        let side = SIDE[0].max(SIDE[1] * spacing).min(NEAR);
         let mut clouds = CloudLight::NONE;
         let (mut left, mut slice, mut before, mut finer) = (1.0, 0.0, 0.0, 1.0);
         while slice <= count - 1.0 && left > UNSEEN {
             let (reach, apart) = (first + slice * spacing, spacing / finer);
             let footprint = apart.max(blur * reach);
             let here = self.within(ray.at(reach), footprint);
-            if here > -SIDE && finer < FINER {
+            if here > -side && finer < FINER {
                 // The side is looked for from the level before, in small steps.
                 finer = FINER;
                 slice = (slice - 1.0 + 1.0 / FINER).max(0.0);
@@ -242,7 +245,7 @@ impl Clouds {
                 left -= hidden;
             }
             before = here;
-            if here > -SIDE || slice.fract() > 0.0 {
+            if here > -side || slice.fract() > 0.0 {
                 slice += 1.0 / finer;
             } else {
                 // Nothing is met over so many levels, whatever lies between.

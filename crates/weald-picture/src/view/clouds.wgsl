@@ -10,7 +10,7 @@ const CLOUDS_SLICES = vec2<f32>(24.0, 72.0);
 const CLOUDS_STEP = 55.0;
 const CLOUDS_BLURRED = 0.02;
 const CLOUDS_FINER = 4.0;
-const CLOUDS_SIDE = 0.1;
+const CLOUDS_SIDE = vec2<f32>(0.1, 0.0008);
 const CLOUDS_STEEPEST = 0.0019;
 const CLOUDS_UNSEEN = 0.02;
 const CLOUDS_NARROWER = 0.42;
@@ -21,7 +21,7 @@ const CLOUDS_PUFF_OCTAVES = 7u;
 const CLOUDS_PUFF_GAIN = 0.72;
 const CLOUDS_PUFF_MEAN = 0.2;
 const CLOUDS_NEAR = 0.45;
-const CLOUDS_HELD = vec2<f32>(-0.02, 0.2);
+const CLOUDS_HELD = vec2<f32>(-0.16, 0.1);
 const CLOUDS_PUFF_SEED = 0x77u;
 const CLOUDS_FLATTER = vec2<f32>(-0.15, 0.25);
 const CLOUDS_DENSE = 0.12;
@@ -167,6 +167,7 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32>
     if levels.x < 1.0 {
         return clouds;
     }
+    let side = min(max(CLOUDS_SIDE.x, CLOUDS_SIDE.y * levels.y), CLOUDS_NEAR);
     var slice = 0.0;
     var before = 0.0;
     var finer = 1.0;
@@ -181,7 +182,7 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32>
             let apart = levels.y / finer;
             footprint = max(apart, blur * reach);
             let here = within_cloud(start + direction * reach, footprint);
-            if here > -CLOUDS_SIDE && finer < CLOUDS_FINER {
+            if here > -side && finer < CLOUDS_FINER {
                 // The side is looked for from the level before, in small steps.
                 finer = CLOUDS_FINER;
                 slice = max(slice - 1.0 + 1.0 / CLOUDS_FINER, 0.0);
@@ -191,7 +192,7 @@ fn clouds_before(start: vec3<f32>, direction: vec3<f32>, blur: f32) -> vec4<f32>
                 hidden = left * (1.0 - exp(-CLOUDS_DENSE * apart * part.x));
                 middle = part.y * apart;
                 before = here;
-                if here > -CLOUDS_SIDE || fract(slice) > 0.0 {
+                if here > -side || fract(slice) > 0.0 {
                     slice += 1.0 / finer;
                 } else {
                     // Nothing is met over so many levels, whatever lies between.

@@ -33,6 +33,10 @@ const LEFT: f32 = 0.6;
 /// Height in a bed from which a block's top is a ledge.
 const TOP: f32 = 0.72;
 
+/// By how much blocks side by side differ in width, and in how many of them: what is wide and what is narrow alternates by folds, of
+/// which no two sets have the same period; with blocks of one width walls look laid by masons.
+const UNEVEN: [[f32; 2]; 2] = [[0.31, 1.4], [0.117, 2.4]];
+
 /// Least sine of the angle between a face and a joint: flatter cuts would be as wide as blocks.
 const FLATTEST: f32 = 0.2;
 
@@ -73,28 +77,37 @@ fn sine(cosine: f32) -> f32 {
     (1.0 - cosine * cosine).max(FLATTEST * FLATTEST).sqrt()
 }
 
+/// A way along blocks of one width as one along blocks of all widths, and how fast it goes there.
+fn unevenly(along: f32, phase: f32) -> [f32; 2] {
+    UNEVEN.iter().fold([along, 1.0], |[at, rate], &[often, wide]| {
+        let fold = along * often + phase;
+        let within = fold - fold.floor() - 0.5;
+        [at + wide * within.abs(), rate + (often * wide).copysign(within)]
+    })
+}
+
 /// Blocks of one height.
 fn blocks(face: &Face, height: f32, seed: u32) -> Fractures {
     let along = |axis: usize| {
         let [east, north] = ACROSS[axis];
         (face.place[0] * east + face.place[1] * north) / (SIDES[axis] * height)
     };
-    let up = face.level / height;
+    let [up, up_rate] = unevenly(face.level / height, 0.37 * (seed & 7) as f32);
     let bed = floor(up);
     // Neither do joints go on from bed to bed, nor across the other set.
     let in_bed = bits(bed, 11, seed);
-    let first = along(0) + part(in_bed, 0);
+    let [first, first_rate] = unevenly(along(0) + part(in_bed, 0), part(in_bed, 16));
     let row = floor(first);
     let in_row = bits(row, bed, seed ^ 0x5bd1);
-    let second = along(1) + part(in_row, 0);
+    let [second, second_rate] = unevenly(along(1) + part(in_row, 0), part(in_row, 16));
     let column = floor(second);
     let hash = bits(column, row.wrapping_add(bed.wrapping_mul(57)), seed ^ 0x91e1);
 
     let [nx, ny, nz] = face.normal;
     let sines = [
-        sine(nx * ACROSS[0][0] + ny * ACROSS[0][1]) / SIDES[0],
-        sine(nx * ACROSS[1][0] + ny * ACROSS[1][1]) / SIDES[1],
-        sine(nz),
+        first_rate * sine(nx * ACROSS[0][0] + ny * ACROSS[0][1]) / SIDES[0],
+        second_rate * sine(nx * ACROSS[1][0] + ny * ACROSS[1][1]) / SIDES[1],
+        up_rate * sine(nz),
     ];
     let blur = face.footprint / height;
     let wide = OPEN.max(0.8 * blur);
@@ -191,6 +204,17 @@ mod tests {
             wall > 0.1 && (0.8..1.12).contains(&(gentle / wall)),
             "{gentle} m on gentle rock, {wall} m on walls"
         );
+    }
+
+    #[test]
+    fn blocks_side_by_side_are_of_all_widths() {
+        // Where the largest blocks alone are seen, along a bed.
+        let tone = |step: u16| along(WALL, [0.5 * f32::from(step), 3.7], 5.0).tone;
+        let edges: Vec<u16> = (1..8000).filter(|&step| (tone(step) - tone(step - 1)).abs() > 0.01).collect();
+        let mut widths: Vec<f32> = edges.windows(2).map(|two| 0.5 * f32::from(two[1] - two[0])).collect();
+        widths.sort_by(f32::total_cmp);
+        let [narrow, wide] = [widths.len() / 8, widths.len() * 7 / 8].map(|at| widths[at]);
+        assert!(widths.len() > 50 && wide > 2.5 * narrow, "{narrow} to {wide} m of {}", widths.len());
     }
 
     #[test]

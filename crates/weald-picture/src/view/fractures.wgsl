@@ -10,6 +10,7 @@ const JOINT_OPEN = 0.06;
 const BLOCK_PIXELS = 1.6;
 const BLOCKS_LEFT = 0.6;
 const BLOCK_TOP = 0.72;
+const UNEVEN_BLOCKS = vec4<f32>(0.31, 1.4, 0.117, 2.4);
 const JOINT_FLATTEST = 0.2;
 
 struct Fractures {
@@ -32,24 +33,33 @@ fn joint(within: f32, sine: f32, deep: f32, wide: f32) -> f32 {
     return deep * (1.0 - ramp(min(within, 1.0 - within) / sine, 0.25 * wide, wide));
 }
 
+// A way along blocks of one width as one along blocks of all widths, and how fast it goes there.
+fn unevenly(along: f32, phase: f32) -> vec2<f32> {
+    let fold = fract(along * UNEVEN_BLOCKS.xz + phase) - 0.5;
+    let wide = UNEVEN_BLOCKS.yw;
+    let rates = select(-UNEVEN_BLOCKS.xz * wide, UNEVEN_BLOCKS.xz * wide, fold >= vec2<f32>(0.0));
+    return vec2<f32>(along + dot(wide, abs(fold)), 1.0 + rates.x + rates.y);
+}
+
 // Blocks of one height.
 fn blocks_at(face: Face, height: f32, seed: u32) -> Fractures {
     let along = vec2<f32>(dot(face.place, JOINT_FIRST), dot(face.place, JOINT_SECOND)) / (BLOCK_SIDES * height);
-    let up = face.level / height;
-    let bed = floor(up);
+    let up = unevenly(face.level / height, 0.37 * f32(seed & 7u));
+    let bed = floor(up.x);
     // Neither do joints go on from bed to bed, nor across the other set.
     let in_bed = grain_bits(i32(bed), 11, seed);
-    let first = along.x + part_of(in_bed, 0u);
-    let row = floor(first);
+    let first = unevenly(along.x + part_of(in_bed, 0u), part_of(in_bed, 16u));
+    let row = floor(first.x);
     let in_row = grain_bits(i32(row), i32(bed), seed ^ 0x5bd1u);
-    let second = along.y + part_of(in_row, 0u);
-    let column = floor(second);
+    let second = unevenly(along.y + part_of(in_row, 0u), part_of(in_row, 16u));
+    let column = floor(second.x);
     let hash = grain_bits(i32(column), i32(row) + i32(bed) * 57, seed ^ 0x91e1u);
-    let within = vec3<f32>(first - row, second - column, up - bed);
+    let within = vec3<f32>(first.x - row, second.x - column, up.x - bed);
 
     let cosines = vec3<f32>(dot(face.normal.xy, JOINT_FIRST), dot(face.normal.xy, JOINT_SECOND), face.normal.z);
     let least = vec3<f32>(JOINT_FLATTEST * JOINT_FLATTEST);
-    let sines = sqrt(max(1.0 - cosines * cosines, least)) / vec3<f32>(BLOCK_SIDES, 1.0);
+    let rates = vec3<f32>(first.y, second.y, up.y);
+    let sines = rates * sqrt(max(1.0 - cosines * cosines, least)) / vec3<f32>(BLOCK_SIDES, 1.0);
     let blur = face.footprint / height;
     let wide = max(JOINT_OPEN, 0.8 * blur);
     // Few joints are open and most are closed.

@@ -2,11 +2,12 @@
 
 use std::f32::consts::FRAC_1_PI;
 
+use super::drawn_rivers::{RiverSpot, with_banks};
 use super::scene::{GroundSpot, RayMarcher, WaterSpot};
 use super::skylight;
 use super::terrain::{Hit, Ray};
 use super::vector::{Vector, add, dot, mirrored, ramp, scale, unit};
-use super::water::{self, RiverSpot};
+use super::water;
 use crate::colour::mix;
 
 /// Metres over which ripples draw out what water mirrors, for each metre that it is away.
@@ -35,7 +36,7 @@ impl RayMarcher {
         let pixel = terrain.spacing[0] * terrain.top.size().columns as f32 / rivers.width as f32;
         let footprint = self.footprint(hit.ray_length) / (-ray.direction[2]).max(0.05).sqrt();
         let share = kept * rivers.at(self.share(hit.place));
-        water::with_banks(share, ray.at(hit.ray_length), [pixel, footprint])
+        with_banks(share, ray.at(hit.ray_length), [pixel, footprint])
     }
 
     /// A point of a lake or the sea of a drawn depth over a bed that rises so by the cell.

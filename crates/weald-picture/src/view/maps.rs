@@ -1,11 +1,11 @@
 //! The fields of a scene, as textures that shaders see under the same names.
 
+use super::drawn_rivers::Rivers;
 use super::flow::Flow;
 use super::lit_scene::LitScene;
 use super::side::Strata;
 use super::skylight::Skylight;
 use super::surface::Surface;
-use super::water::Rivers;
 use weald_core::material::MAX_MATERIALS;
 
 /// How the numbers of a map are kept, and looked up.

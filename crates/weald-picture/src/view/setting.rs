@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::drawn_rivers::Rivers;
 use super::flow::Flow;
 use super::ground_kinds::Limits;
 use super::keys::{GroundColour, View};
@@ -14,7 +15,7 @@ use super::surface::Surface;
 use super::surroundings::Surroundings;
 use super::terrain::Terrain;
 use super::vector::Vector;
-use super::water::{self, Rivers};
+use super::water;
 use crate::colour::linear_of_srgb;
 use crate::ground::{drawable, land_share, within_rim};
 use crate::sheet::Sheet;

@@ -2,6 +2,7 @@
 
 use super::crags::crags;
 use super::crown_relief::crown_height;
+use super::drawn_rivers::with_banks;
 use super::fractures::{Face, Fractures, fractures};
 use super::rock::{BedSpot, Beds, beds};
 use super::slope_grain::on_slope;
@@ -9,7 +10,7 @@ use super::snow::{SnowSpot, snow_share};
 use super::solid_grain::solid_grain;
 use super::turf::turf;
 use super::vector::unit;
-use super::water::{breaking, ripples, shore, swash, wetted, with_banks};
+use super::water::{breaking, ripples, shore, swash, wetted};
 use super::woods::{Tree, canopy};
 use weald_core::grain::Octaves;
 

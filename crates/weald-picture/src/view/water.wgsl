@@ -70,6 +70,7 @@ const RIVER_BANK = 0.3;
 const BANK_RAGGED = 0.35;
 const BANK_LENGTH = 1.6;
 const BANK_HEIGHT = 3.0;
+const BANK_RISE = 3.0;
 const STONES_STAND = vec2<f32>(0.07, 0.03);
 const STONES_LENGTH = vec2<f32>(2.0, 1.2);
 
@@ -92,7 +93,7 @@ fn with_banks(mapped: f32, point: vec2<f32>, pixel: f32, footprint: f32) -> Rive
     let share = clamp(mapped + BANK_RAGGED * 4.0 * mapped * (1.0 - mapped) * ragged, 0.0, 1.0);
     let softness = clamp(footprint / pixel, RIVER_SHARPEST, 1.0);
     let bank = mix(RIVER_BANK, 0.5, (softness - RIVER_SHARPEST) / (1.0 - RIVER_SHARPEST));
-    let out = max(1.0 - share / bank, 0.0);
+    let out = clamp(BANK_RISE * (1.0 - share / bank), 0.0, 1.0);
     return RiverSpot(clamp((share - bank) / softness + 0.5, 0.0, 1.0), RIVER_DEPTH * share, BANK_HEIGHT * out * out);
 }
 

@@ -77,6 +77,28 @@ fn shadows_lie_where_the_clouds_are_that_the_sun_shines_through() {
     }
 }
 
+/// Share of pixels low over the horizon, .3 mrad high, that differ by much from both the one above and the one below.
+#[test]
+fn heaps_low_over_the_horizon_do_not_end_in_combs() {
+    let (sky, clouds) = clouds(0.2);
+    let clouds = clouds.expect("some");
+    let (mut odd, mut clouded) = (0, 0);
+    for column in 0..24 {
+        let azimuth = 0.26 * column as f32;
+        let open = |row: usize| {
+            let direction = unit([libm::cosf(azimuth), libm::sinf(azimuth), 0.025 + 0.0003 * row as f32]);
+            clouds.before((&sky, haze()), &Ray { from: [0.0, 0.0, 600.0], direction }, 0.0003).open
+        };
+        let rows: Vec<f32> = (0..120).map(open).collect();
+        for three in rows.windows(3) {
+            let [below, here, above] = [three[0], three[1], three[2]];
+            clouded += usize::from(here < 0.95);
+            odd += usize::from((here - below).min(here - above) > 0.04 || (below - here).min(above - here) > 0.04);
+        }
+    }
+    assert!(clouded > 300 && odd * 100 < clouded, "{odd} of {clouded}");
+}
+
 #[test]
 fn clouds_are_seen_from_below_from_within_and_from_above() {
     let (sky, clouds) = clouds(1.0);

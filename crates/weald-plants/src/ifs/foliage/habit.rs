@@ -30,6 +30,12 @@ pub(in crate::ifs) struct Frond {
     arch: f64,
 }
 
+/// Angle from upright at the root, and by how much more a frond turns in its length, in radians: of every other one, which is an inner
+/// one, and of the outer ones, which lie lower and whose tips hang. The funnel is three times as far across as high; fronds that arch
+/// down to the ground are five times so, and from some way off stand like the crown of a palm.
+const INNER: (f64, f64) = (0.36, 0.90);
+const OUTER: (f64, f64) = (0.70, 1.0);
+
 /// By how much the halves of a frond rise from its midrib.
 const FOLD: f64 = 0.22;
 
@@ -69,9 +75,8 @@ impl Habit {
         let frond = |number: i64| {
             let random =
                 |purpose: u64| if is_grown { 2.0 * unit(hash2(purpose, number, 7)) - 1.0 } else { 0.0 };
-            // Every other frond is an outer one, which lies lower and touches the ground with its tip.
             let is_outer = is_grown && number % 2 == 1;
-            let (lean, arch) = if is_outer { (0.72, 1.15) } else { (0.40, 1.50) };
+            let (lean, arch) = if is_outer { OUTER } else { INNER };
             Frond {
                 number,
                 phase: unit(hash2(4, number, 7)),

@@ -28,7 +28,7 @@ pub struct Colours {
 
 impl Colours {
     /// Those of a plant of which nothing else is said.
-    pub const USUAL: Self = Self { leaf: [0.49, 0.66, 0.27], stem: [0.37, 0.33, 0.18] };
+    pub const USUAL: Self = Self { leaf: [0.41, 0.54, 0.25], stem: [0.37, 0.33, 0.18] };
 }
 
 /// A picture with opacity.
