@@ -17,6 +17,11 @@ const BENT: [f32; 2] = [0.5, 0.8];
 const MASSIVE: f32 = 0.5;
 const BROKEN: [f32; 2] = [-0.25, 0.35];
 
+/// Slopes between which beds come to be seen by their tone, and the share that is on gentler ground: there each runs out over many
+/// times its thickness, and would lie in swirls.
+const OUTCROPS: [f32; 2] = [0.3, 0.9];
+const GENTLE: f32 = 0.25;
+
 /// Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
 const FACETS: f32 = 0.55;
 const UPRIGHT: f32 = 0.4;
@@ -70,14 +75,15 @@ impl Cover {
         let thick = THICK * self.limits.relief.max(1e-3);
         let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], self.rock_fold(texture), true);
         let [grey, dark, warm] = self.palette.rock;
-        let warmth = 0.4 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad + 0.3 * blocks.tone;
+        let seen = GENTLE + (1.0 - GENTLE) * ramp(spot.slope, OUTCROPS[0], OUTCROPS[1]);
+        let tones = [seen * bed.tone, seen * thin.tone];
+        let warmth = 0.4 + 0.7 * tones[0] + 0.3 * tones[1] + 0.9 * texture.broad + 0.3 * blocks.tone;
         let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let tone = 0.92 + 0.45 * bed.tone + 0.55 * thin.tone + 0.4 * texture.broad + 0.6 * blocks.tone;
+        let tone = 0.92 + 0.45 * tones[0] + 0.55 * tones[1] + 0.4 * texture.broad + 0.6 * blocks.tone;
         let stone = scale(stone, tone.max(0.3));
         // A quarter of a smooth face is dark.
         let cracks = 0.22 - 0.6 * texture.fine.value - 2.2 * texture.crags.height
-            + 0.7 * bed.joint
-            + 0.6 * thin.joint
+            + seen * (0.7 * bed.joint + 0.6 * thin.joint)
             + 1.1 * blocks.crack;
         let ledge = 0.4 * bed.ledge + 0.3 * thin.ledge;
         let rough = texture.rough(0.2, 2.6);

@@ -36,6 +36,8 @@ const RAGGED = vec2<f32>(0.12, 0.3);
 const BENT = vec2<f32>(0.5, 0.8);
 
 // Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
+const OUTCROPS = vec2<f32>(0.3, 0.9);
+const GENTLE = 0.25;
 const FACETS = 0.55;
 const MASSIVE = 0.5;
 const BROKEN = vec2<f32>(-0.25, 0.35);
@@ -324,11 +326,12 @@ fn facets_of(spot: SurfacePoint) -> f32 {
 fn rock(spot: SurfacePoint, texture: Texture, blocks: Fractures) -> SurfaceSample {
     let thick = rock_thickness();
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), rock_fold(texture), true);
-    let tones = vec3<f32>(bedding.thick.tone, bedding.thin.tone, blocks.tone);
+    let seen = mix(GENTLE, 1.0, ramp(spot.slope, OUTCROPS.x, OUTCROPS.y));
+    let tones = vec3<f32>(seen * vec2<f32>(bedding.thick.tone, bedding.thin.tone), blocks.tone);
     let warmth = 0.4 + dot(vec3<f32>(0.7, 0.3, 0.3), tones) + 0.9 * texture.broad;
     let tone = 0.92 + dot(vec3<f32>(0.45, 0.55, 0.6), tones) + 0.4 * texture.broad;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * max(tone, 0.3);
-    let joints = 0.7 * bedding.thick.joint + 0.6 * bedding.thin.joint + 1.1 * blocks.crack;
+    let joints = seen * (0.7 * bedding.thick.joint + 0.6 * bedding.thin.joint) + 1.1 * blocks.crack;
     let cracks = 0.22 - 0.6 * texture.fine.value - 2.2 * texture.crags.height + joints;
     let ledge = 0.4 * bedding.thick.ledge + 0.3 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));

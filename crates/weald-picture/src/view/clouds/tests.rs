@@ -93,7 +93,9 @@ fn heaps_low_over_the_horizon_do_not_end_in_combs() {
         for three in rows.windows(3) {
             let [below, here, above] = [three[0], three[1], three[2]];
             clouded += usize::from(here < 0.95);
-            odd += usize::from((here - below).min(here - above) > 0.04 || (below - here).min(above - here) > 0.04);
+            odd += usize::from(
+                (here - below).min(here - above) > 0.04 || (below - here).min(above - here) > 0.04,
+            );
         }
     }
     assert!(clouded > 300 && odd * 100 < clouded, "{odd} of {clouded}");
