@@ -37,14 +37,25 @@ fn tufts(point: vec2<f32>, footprint: f32) -> Grain {
     return octaves_at(Octaves(7.0, 10u, 0.68, 0x3bu), point, footprint);
 }
 
-// The light of grass that is seen as a whole.
-fn canopy_radiance(colour: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, footprint: f32, seen: Seen, sun: f32) -> vec3<f32> {
-    let tuft = tufts(point.xy, footprint);
+// Share of tone that is left of tufts from low over the ground, and cosines between which that is: their tops hide the gaps between
+// them, and a tone that lay flat would be drawn out in streaks.
+const TUFTS_STAND = 0.3;
+const TUFTS_FROM = vec2<f32>(0.06, 0.45);
+
+fn tufts_seen(cosine: f32) -> f32 {
+    return mix(TUFTS_STAND, 1.0, smoothstep(TUFTS_FROM.x, TUFTS_FROM.y, cosine));
+}
+
+// The light of grass that is seen as a whole, at an angle to the ground's normal of that cosine.
+fn canopy_radiance(colour: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, view: ViewRay, seen: Seen, sun: f32) -> vec3<f32> {
+    let shown = tufts_seen(abs(dot(view.direction, normal)));
+    let whole = tufts(point.xy, view.footprint);
+    let tuft = Grain(shown * whole.value, shown * whole.slope);
     let bumpy = normalize(vec3<f32>(normal.xy - 0.20 * tuft.slope, normal.z));
     // Blades stand up: even where the ground turns away from the sun some of them catch it.
     let facing = 0.3 + 0.7 * max(dot(bumpy, scene.sun.xyz), 0.0);
     let light = scene.sunlight.xyz * (OF_THE_SUN * facing * sun) + OF_THE_SKY * skylight_on(seen, bumpy);
-    let dry = 0.5 * octaves_at(Octaves(38.0, 4u, 0.6, 0x3cu), point.xy, footprint).value + 0.25 * tuft.value;
+    let dry = 0.5 * octaves_at(Octaves(38.0, 4u, 0.6, 0x3cu), point.xy, view.footprint).value + 0.25 * tuft.value;
     let warm = vec3<f32>(1.0 + 0.5 * dry, 1.0 + 0.15 * dry, 1.0 - 0.25 * dry);
     return colour * warm * max(1.0 + 0.55 * tuft.value, 0.3) * light / PI;
 }
@@ -66,7 +77,7 @@ fn with_canopy(
     if bare > 0.999 {
         return soil;
     }
-    return mix(canopy_radiance(lawn.xyz, point, normal, view.footprint, seen, sun), soil, bare);
+    return mix(canopy_radiance(lawn.xyz, point, normal, view, seen, sun), soil, bare);
 }
 
 // From where a point is looked at: along a direction, from so far away, with so wide a pixel.

@@ -221,6 +221,8 @@ fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footpri
     }
     let rise = -normal.xy / max(normal.z, 0.05);
     var detail = turf_detail(point, rise, footprint);
+    let standing = tufts_seen(abs(dot(normalize(sight), normal)));
+    detail = Detail(standing * detail.tone, standing * detail.hue, standing * detail.bump);
     var colour = skin.albedo;
     if skin.kinds.y > 0.0 {
         let share = patch_of_stones(skin.kinds.y, detail.tone);
