@@ -229,7 +229,7 @@ fn plants(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Er
     let recipe = Recipe::parse("glade.toml", GLADE, &Overrides { size, ..Overrides::default() })?;
     let landscape = recipe.landscape()?;
     let view = view(job.choose([1100, 620], [96, 54]), 62.0, [235.0, 34.0]);
-    let image = seen(&landscape, device, ([90.0, 110.0], 2.3, [60.0, 90.0]), view)?;
+    let image = seen(&landscape, device, ([96.0, 104.0], 2.3, [66.0, 80.0]), view)?;
     let count = |name: &str| landscape.plants(name).map(|plants| plants.plants.len());
     let counts = [count("ferns")?, count("shrubs")?, count("conifers")?];
     let meadow = landscape.meadow("grass")?;
