@@ -221,11 +221,13 @@ fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footpri
     }
     let rise = -normal.xy / max(normal.z, 0.05);
     var detail = turf_detail(point, rise, footprint);
+    // Stones lie where the tone of all tufts says, from wherever they are seen.
+    let tone = detail.tone;
     let standing = tufts_seen(abs(dot(normalize(sight), normal)));
-    detail = Detail(standing * detail.tone, standing * detail.hue, standing * detail.bump);
+    detail = Detail(standing * tone, standing * detail.hue, standing * detail.bump);
     var colour = skin.albedo;
     if skin.kinds.y > 0.0 {
-        let share = patch_of_stones(skin.kinds.y, detail.tone);
+        let share = patch_of_stones(skin.kinds.y, tone);
         colour = parted_colour(skin, share);
         detail = blended(detail, detail_on_planes(point, normal, footprint, OF_STONES), share);
     }
