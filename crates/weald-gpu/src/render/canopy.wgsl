@@ -37,8 +37,8 @@ fn tufts(point: vec2<f32>, footprint: f32) -> Grain {
     return octaves_at(Octaves(7.0, 10u, 0.68, 0x3bu), point, footprint);
 }
 
-// Share of tone that is left of tufts from low over the ground, and cosines between which that is: their tops hide the gaps between
-// them, and a tone that lay flat would be drawn out in streaks.
+// Share of the tone of tufts that is left for a gaze along the ground, and cosines of the angle to its normal between which that grows to
+// all: tops hide the gaps behind them, and a tone that lay flat would be drawn out in streaks.
 const TUFTS_STAND = 0.3;
 const TUFTS_FROM = vec2<f32>(0.06, 0.45);
 

@@ -139,16 +139,20 @@ mod tests {
     use weald_core::domain::Domain;
     use weald_core::grid::{Field, Size};
 
-    #[test]
-    fn a_river_lies_along_its_valley_and_nowhere_else() {
+    /// A valley of such cells: water gathers from both banks in column 32 and leaves to the south.
+    fn valley(cell: f64) -> Landscape {
         let size = Size::square(64).expect("small");
-        let mut landscape = Landscape::new(Domain::new(size, 10.0));
-        // Water that gathers from both banks in column 32 and leaves to the south.
+        let mut landscape = Landscape::new(Domain::new(size, cell));
         let east = |x: usize, _| if x < 32 { x as f32 } else { x as f32 - 63.0 } * 0.01;
         let south = |x: usize, y: usize| if x == 32 { y as f32 } else { 0.0 };
         landscape.insert("flux_x", "m³/step", Field::from_function(size, east));
         landscape.insert("flux_y", "m³/step", Field::from_function(size, south));
-        let rivers = Rivers::of(&landscape, 4.0).expect("a river");
+        landscape
+    }
+
+    #[test]
+    fn a_river_lies_along_its_valley_and_nowhere_else() {
+        let rivers = Rivers::of(&valley(10.0), 4.0).expect("a river");
         let across = |y: f32| (0..64).map(move |x| [(31.0 + x as f32 / 20.0) / 64.0, y / 64.0]);
         let along = |y: f32| across(y).map(|place| rivers.at(place)).fold(0.0, f32::max);
         assert!(along(40.0) > 0.9 && along(60.0) > 0.9, "{} and {}", along(40.0), along(60.0));
@@ -179,22 +183,16 @@ mod tests {
     }
 
     #[test]
-    fn a_river_thinner_than_the_maps_pixels_comes_and_goes_nowhere() {
-        let size = Size::square(64).expect("small");
-        let mut landscape = Landscape::new(Domain::new(size, 100.0));
-        let east = |x: usize, _| if x < 32 { x as f32 } else { x as f32 - 63.0 } * 0.01;
-        let south = |x: usize, y: usize| if x == 32 { y as f32 } else { 0.0 };
-        landscape.insert("flux_x", "m³/step", Field::from_function(size, east));
-        landscape.insert("flux_y", "m³/step", Field::from_function(size, south));
+    fn a_river_thinner_than_the_maps_pixels_does_not_come_and_go() {
         // Less than half a pixel wide, as it winds through pixels and between them.
-        let rivers = Rivers::of(&landscape, 0.6).expect("a river");
+        let rivers = Rivers::of(&valley(100.0), 0.6).expect("a river");
         let there = |y: f32| {
             let across = (0..120).map(|x| rivers.at([(29.5 + x as f32 / 20.0) / 64.0, y / 64.0]));
             across.fold(0.0, f32::max)
         };
         let shares: Vec<f32> = (0..400).map(|y| there(40.0 + 0.05 * y as f32)).collect();
         assert!(shares.iter().all(|&share| (0.05..0.9).contains(&share)), "{shares:?}");
-        // Along less than a pixel and half of one it becomes no fainter and stronger again.
+        // Over a third of a cell and over a whole one it does not become fainter and stronger again.
         let dips = [8, 24].map(|length| {
             let falls = |along: &&[f32]| {
                 let least = along.iter().copied().fold(1.0, f32::min);
