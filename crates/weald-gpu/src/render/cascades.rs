@@ -26,7 +26,7 @@ const STRIDES: f32 = 8.0;
 /// Metres by which the point moves at least from which is chosen what all but the last hold, and how finely; and the share of the
 /// distance to the nearest ground in sight.
 const EYE_STRIDES: [f32; CASCADES - 1] = [2.0, 8.0, 32.0];
-const EYE_STRIDE: f32 = 1.0 / 16.0;
+const EYE_STRIDE: f32 = 1.0 / 8.0;
 
 /// Metres that trees of woods are high at most. Where they are drawn one by one their shadows would leap: the point moves by so
 /// little that none is seen higher or lower by more than so many pixels, and where that is less than so many metres, it is the

@@ -48,7 +48,7 @@ fn whole_vertex(
     return vec4<f32>(vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, f32(kind) * KIND, 1.0);
 }
 
-// What something else hides, and what a canvas of kinds is cleared to.
+// What something else hides, and what canvases of kinds are cleared to.
 const HIDDEN = 19u;
 
 // Whether something hides a sample of the ground, or of what lies behind it.
@@ -111,19 +111,19 @@ fn kind_seen(position: vec2<f32>, surface: SeenSurface) -> u32 {
     return kind;
 }
 
-// The light that is drawn by then: of ground, as its opacity says, where the picture before had it.
-@group(2) @binding(8) var light_by_then: texture_2d<f32>;
-
-fn is_lit(position: vec2<f32>) -> bool {
-    return textureLoad(light_by_then, vec2<i32>(position), 0).w > 0.0;
+// The kind of a pixel of one sample, as a number of a canvas of colours: what is lit by then is left at once by its depth, which no
+// shader can be that writes depths.
+@fragment
+fn kind_fragment(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
+    return select(kind_seen(position.xy, surface_of(position.xy, false)), HIDDEN, is_hidden(position.xy, 0));
 }
 
+@group(2) @binding(8) var kinds_by_number: texture_2d<u32>;
+
+// The same as a depth.
 @fragment
-fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
-    if is_hidden(position.xy, 0) | is_lit(position.xy) {
-        discard;
-    }
-    return f32(kind_seen(position.xy, surface_of(position.xy, false))) * KIND;
+fn kind_depth_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
+    return f32(textureLoad(kinds_by_number, vec2<i32>(position.xy), 0).x) * KIND;
 }
 
 // Leaves of dry ground beyond the border, for which comparing depths selects, what is wet: of ground that lies there the height

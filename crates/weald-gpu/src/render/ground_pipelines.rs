@@ -1,7 +1,5 @@
 //! How the pipelines of the ground and of what lies behind it are made.
 
-use std::ops::Range;
-
 use weald::picture::LitScene;
 use wgpu::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, ColorWrites, CompareFunction,
@@ -9,27 +7,10 @@ use wgpu::{
     RenderPipeline, RenderPipelineDescriptor, ShaderModule, VertexBufferLayout, VertexState,
 };
 
+use super::kinds::{Light, Over};
 use super::layouts::depth_state;
-use super::targets::LIGHT;
+use super::targets::{LIGHT, NUMBERS};
 use crate::gpu::context::Context;
-
-/// A kind of light, the kinds of ground that have it, far away and close by, and what it is laid over.
-pub(super) struct Light {
-    pub(super) fragment: &'static str,
-    pub(super) kinds: [Range<u32>; 2],
-    pub(super) over: Over,
-}
-
-/// Whether light is laid over what is there, by its own share.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Over {
-    /// It is all of the light.
-    Nothing,
-    /// It changes from picture to picture where it is close by.
-    Flowing,
-    /// It changes no more than the ground below.
-    Still,
-}
 
 /// What a scene has, without which shaders leave out what draws it.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +38,7 @@ impl SceneParts {
 pub(super) struct Parts<'a> {
     pub(super) context: &'a Context,
     pub(super) module: &'a ShaderModule,
-    /// With the depths, without, with the light of clouds as well, and with that which is drawn by then.
+    /// With the depths, without, with the light of clouds as well, and with kinds by number.
     pub(super) layouts: [&'a PipelineLayout; 4],
     pub(super) patches: &'a [Option<VertexBufferLayout<'a>>],
     pub(super) samples: u32,
@@ -124,9 +105,24 @@ impl Parts<'_> {
         })
     }
 
-    /// The kind of each pixel.
+    /// The kind of each pixel of one sample by number, where its depth is that of no kind yet.
+    pub(super) fn number(&self) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: format!("numbers {}", self.has.horizon),
+            layout: self.layouts[0],
+            samples: 1,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some("kind_fragment"),
+            constants: &[("SAMPLED", 0.0), ("HORIZON", f64::from(self.has.horizon))],
+            target: Some(ColorTargetState { format: NUMBERS, blend: None, write_mask: ColorWrites::ALL }),
+            depth: Some((false, CompareFunction::Equal)),
+            hidden: None,
+        })
+    }
+
+    /// The kind of each sample, by the number of its pixel where it has one.
     pub(super) fn kind(&self) -> RenderPipeline {
-        let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
+        let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_depth_fragment" };
         self.pipeline(&Drawn {
             key: format!("{fragment} {}", self.has.horizon),
             layout: self.layouts[3],
@@ -172,19 +168,25 @@ impl Parts<'_> {
     }
 
     /// The light of the kinds of ground that have it.
-    pub(super) fn light(&self, light: &Light, is_behind: bool) -> RenderPipeline {
-        self.light_from(self.layouts[0], light, is_behind)
+    pub(super) fn light(&self, light: &Light, is_behind: bool, compare: CompareFunction) -> RenderPipeline {
+        self.light_from(self.layouts[0], light, is_behind, compare)
     }
 
     /// The light of the sky, with that of its clouds.
     pub(super) fn sky(&self, light: &Light) -> RenderPipeline {
-        self.light_from(self.layouts[2], light, false)
+        self.light_from(self.layouts[2], light, false, CompareFunction::Equal)
     }
 
-    fn light_from(&self, layout: &PipelineLayout, light: &Light, is_behind: bool) -> RenderPipeline {
+    fn light_from(
+        &self,
+        layout: &PipelineLayout,
+        light: &Light,
+        is_behind: bool,
+        compare: CompareFunction,
+    ) -> RenderPipeline {
         let blend = (light.over != Over::Nothing).then_some(LAID_OVER);
         self.pipeline(&Drawn {
-            key: format!("{} {is_behind} {} {}", light.fragment, self.has_lawn, self.has.horizon),
+            key: format!("{} {is_behind} {compare:?} {} {}", light.fragment, self.has_lawn, self.has.horizon),
             layout,
             samples: self.samples,
             vertex: ("whole_vertex", &[]),
@@ -196,7 +198,7 @@ impl Parts<'_> {
                 ("HORIZON", f64::from(self.has.horizon)),
             ],
             target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
-            depth: Some((false, CompareFunction::Equal)),
+            depth: Some((false, compare)),
             hidden: None,
         })
     }

@@ -18,7 +18,7 @@ use crate::gpu::Gpu;
 pub(super) struct Onto {
     pub(super) options: Options,
     pub(super) targets: Targets,
-    /// The depths of the ground, as its light is drawn from them, alone, with the light of clouds, and with that drawn by then.
+    /// The depths of the ground, as its light is drawn from them, alone, with the light of clouds, and with kinds by number.
     pub(super) depths: [BindGroup; 3],
     /// The light, as a picture is made from it.
     pub(super) light: BindGroup,

@@ -11,8 +11,9 @@ use wgpu::{
 
 use super::casters::Casters;
 use super::grass::Grass;
-use super::ground::{self, Ground, InSight};
+use super::ground::{self, Ground, bind};
 use super::ground_pipelines::{Parts, SceneParts};
+use super::in_sight::InSight;
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::patch_heights;
 use super::picking;
@@ -258,10 +259,7 @@ impl Passes {
         }
         let takes = drawing.before.take(encoder, (targets, groups[0]), self.reprojection.as_ref());
         // What is hidden by now is not lit.
-        let mut pass = targets.kind_pass(encoder, takes);
-        bind(&mut pass, groups);
-        self.ground.draw_kinds(&mut pass, depths, drawing.in_sight);
-        drop(pass);
+        self.ground.draw_kinds(encoder, (targets, depths, takes), groups, drawing.in_sight);
         let mut pass = targets.ground_pass(encoder);
         bind(&mut pass, groups);
         self.ground.draw_light(&mut pass, &depths[0], drawing.in_sight);
@@ -276,7 +274,7 @@ impl Passes {
         let mut pass = targets.backdrop_pass(encoder);
         bind(&mut pass, groups);
         if !drawing.bare {
-            self.ground.draw_backdrop(&mut pass, depths, drawing.in_sight);
+            self.ground.draw_backdrop(&mut pass, (depths, targets.light.size()), drawing.in_sight);
         }
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Behind);
@@ -295,6 +293,8 @@ impl Passes {
         if is_seen || before.is_kept() {
             let mut pass = targets.cloud_pass(encoder);
             bind(&mut pass, groups);
+            let size = targets.clouds.size();
+            in_sight.rows_of_clouds(size[1]).limit(&mut pass, size);
             // Of clouds around the eye each has another distance.
             let takes = before.clouds(self.reprojection.as_ref()).filter(|_| !in_sight.is_over_clouds);
             match takes {
@@ -326,12 +326,6 @@ fn draw_what_grows(pass: &mut RenderPass<'_>, drawing: Drawing<'_>) {
     }
     if let Some(plants) = drawing.plants {
         plants.draw(pass);
-    }
-}
-
-fn bind(pass: &mut RenderPass<'_>, groups: [&BindGroup; 2]) {
-    for (at, group) in (0..).zip(groups) {
-        pass.set_bind_group(at, group, &[]);
     }
 }
 

@@ -15,7 +15,7 @@ use super::frame::{Drawn, Frame, PictureBefore};
 use super::grass::Grass;
 use super::grass_layer::Around;
 use super::grass_look::GrassLook;
-use super::ground::InSight;
+use super::in_sight::InSight;
 use super::layouts::Layouts;
 use super::maps::Maps;
 use super::onto::Onto;

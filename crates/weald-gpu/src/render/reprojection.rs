@@ -23,7 +23,7 @@ use wgpu::{
 };
 
 use super::frame::PictureBefore;
-use super::ground::{DEPTHS_BINDING, FRONT_BINDING, depths_entry, draw_whole};
+use super::ground::{DEPTHS_BINDING, DEPTHS_GROUP, FRONT_BINDING, depths_entry};
 use super::targets::Targets;
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;
@@ -32,6 +32,9 @@ use crate::gpu::Gpu;
 const LIGHT_BEFORE: u32 = 6;
 const DEPTHS_BEFORE: u32 = 7;
 const CLOUDS_BEFORE: u32 = 9;
+
+/// The kind of pixels that are lit by the picture before, which nothing lights anew.
+const REPROJECTED: u32 = 20;
 
 /// Turns in which all pixels are lit anew, as the shader has them, and fewer of them for a camera at rest.
 const TURNS: u32 = 8;
@@ -179,7 +182,9 @@ impl<'a> LightBefore<'a> {
         let Some(drawn) = drawn else { return false };
         let mut pass = targets.reprojection_pass(encoder);
         pass.set_bind_group(0, frame, &[]);
-        draw_whole(&mut pass, &drawn.ground, &kept.ground_group);
+        pass.set_bind_group(DEPTHS_GROUP, &kept.ground_group, &[]);
+        pass.set_pipeline(&drawn.ground);
+        pass.draw(0..3, REPROJECTED..REPROJECTED + 1);
         true
     }
 

@@ -4,14 +4,11 @@
 @group(2) @binding(6) var light_before: texture_2d<f32>;
 @group(2) @binding(7) var depths_before: texture_depth_2d;
 
-// The kind of pixels that are lit by the picture before, which nothing lights anew.
-const REPROJECTED = 20u;
-
 // What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, and
 // nothing where something else than ground is seen. A block in whose middle it is as old as OLDEST is lit anew as a whole, for
 // which software takes as long as for one of its pixels; what is as old as LAST elsewhere is not taken either.
 const AGE = 0.0625;
-const OLDEST = 0.45;
+const OLDEST = 0.5;
 const LAST = 0.3;
 
 // Pixels along the side of a block: software lights four by four at once. One block in so many is due in each picture.
@@ -92,7 +89,7 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
     var sum = vec3<f32>(0.0);
     var depth = 0.0;
     var seen = 0.0;
-    var youth = 1.0;
+    var youth = 0.0;
     var corner = 0;
     loop {
         let here = corner_of(around, corner, size);
@@ -101,7 +98,7 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
         sum += lit * light.xyz;
         depth += here.weight * textureLoad(depths_before, here.texel, 0);
         seen += lit;
-        youth = select(youth, min(youth, light.w), lit > 0.02);
+        youth += lit * light.w;
         corner++;
         if corner >= 4 {
             break;
@@ -113,8 +110,10 @@ fn light_seen_before(place: vec3<f32>) -> vec4<f32> {
         let near = light_near(vec2<i32>(round(place.xy - 0.5)), place.z);
         return select(vec4<f32>(0.0), vec4<f32>(near.xyz, near.w - AGE), near.w > LAST);
     }
-    let is_known = is_same && youth > LAST;
-    return select(vec4<f32>(0.0), vec4<f32>(sum / max(seen, 1e-6), youth - AGE), is_known);
+    // Of what is between pixels the age is between theirs: by the oldest of them ages would spread.
+    let mean = vec4<f32>(sum, youth) / max(seen, 1e-6);
+    let is_known = is_same && mean.w > LAST;
+    return select(vec4<f32>(0.0), vec4<f32>(mean.xyz, mean.w - AGE), is_known);
 }
 
 // The light of the ground nearest to a texel that something hid, with its age: where blades sway before ground, or move across
@@ -152,13 +151,8 @@ fn is_block_old(position: vec2<f32>) -> bool {
     return depth > 0.0 && light.w > 0.0 && light.w <= OLDEST;
 }
 
-struct LightBefore {
-    @location(0) light: vec4<f32>,
-    @builtin(frag_depth) kind: f32,
-}
-
 @fragment
-fn reprojected_fragment(@builtin(position) position: vec4<f32>) -> LightBefore {
+fn reprojected_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let depth = textureLoad(ground_depths, vec2<i32>(position.xy), 0);
     if (depth <= 0.0) | is_hidden(position.xy, 0) | is_due(position.xy) | is_block_old(position.xy) {
         discard;
@@ -167,5 +161,5 @@ fn reprojected_fragment(@builtin(position) position: vec4<f32>) -> LightBefore {
     if light.w <= 0.0 {
         discard;
     }
-    return LightBefore(light, f32(REPROJECTED) * KIND);
+    return light;
 }

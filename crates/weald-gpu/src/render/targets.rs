@@ -19,7 +19,17 @@ pub(super) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 /// What kinds of ground are cleared to: that of what something else hides, as `ground.wgsl` has it.
-const HIDDEN: f32 = 19.0 / 32.0;
+pub(super) const HIDDEN: u32 = 19;
+
+/// Depth between two kinds.
+const KIND: f32 = 1.0 / 32.0;
+
+/// Format of kinds by number.
+pub(super) const NUMBERS: TextureFormat = TextureFormat::R8Uint;
+
+/// What kinds are before they are drawn, as depths and by number.
+const CLEARED_KINDS: LoadOp<f32> = LoadOp::Clear(HIDDEN as f32 * KIND);
+const CLEARED_NUMBERS: Color = Color { r: HIDDEN as f64, g: 0.0, b: 0.0, a: 0.0 };
 
 /// What nothing drew on: no light of a landscape.
 const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 0.0 };
@@ -33,8 +43,9 @@ pub(super) struct Targets {
     /// Of what is nearest, and of the ground alone.
     pub(super) depth: Canvas,
     pub(super) ground: Canvas,
-    /// Of which kind the ground of each sample is.
+    /// Of which kind the ground of each sample is, as a depth, and of a pixel of one sample by number.
     kinds: Canvas,
+    pub(super) numbers: Canvas,
     /// The light of clouds before the sky, in half as many columns and rows.
     pub(super) clouds: Canvas,
     /// With samples; `None` where a pixel has one.
@@ -54,6 +65,7 @@ impl Targets {
         let usage = attachment | seen | copied | TextureUsages::COPY_DST;
         let ground = Shape { samples, ..Shape::flat(size, DEPTH, usage) };
         let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
+        let numbers = Shape::flat(size, NUMBERS, attachment | seen);
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
         let light = Shape::flat(size, LIGHT, attachment | seen | copied);
         let clouds = Shape::flat(size.map(|side| side.div_ceil(2)), LIGHT, attachment | seen | copied);
@@ -61,6 +73,7 @@ impl Targets {
             depth: Canvas::new(gpu, "depth", depth)?,
             ground: Canvas::new(gpu, "depth of the ground", ground)?,
             kinds: Canvas::new(gpu, "kinds of ground", kinds)?,
+            numbers: Canvas::new(gpu, "kinds of ground by number", numbers)?,
             clouds: Canvas::new(gpu, "light of clouds", clouds)?,
             sampled: if samples > 1 { Some(Canvas::new(gpu, "light with samples", sampled)?) } else { None },
             light: Canvas::new(gpu, "light", light)?,
@@ -90,17 +103,28 @@ impl Targets {
     pub(super) fn reprojection_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
         let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
         encoder.begin_render_pass(&RenderPassDescriptor {
-            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(HIDDEN), StoreOp::Store)),
+            depth_stencil_attachment: Some(depths(&self.kinds, CLEARED_KINDS, StoreOp::Store)),
             ..described("reprojection", &[Some(attachment)], None)
         })
     }
 
-    /// The pass that draws of which kind the ground is, where it has none yet from the picture before.
-    pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder, has_some: bool) -> RenderPass<'a> {
-        let load = if has_some { LoadOp::Load } else { LoadOp::Clear(HIDDEN) };
+    /// The pass that draws of which kind the ground is by number, where it has none yet from the picture before.
+    pub(super) fn number_pass<'a>(&self, encoder: &'a mut CommandEncoder, has_some: bool) -> RenderPass<'a> {
+        let load = if has_some { LoadOp::Load } else { CLEARED_KINDS };
+        let ops = Operations { load: LoadOp::Clear(CLEARED_NUMBERS), store: StoreOp::Store };
+        let view = &self.numbers.view;
+        let attachment = RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops };
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Store)),
+            ..described("kinds by number", &[Some(attachment)], None)
+        })
+    }
+
+    /// The pass that draws of which kind each sample is.
+    pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
         encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("kinds"),
-            depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Store)),
+            depth_stencil_attachment: Some(depths(&self.kinds, CLEARED_KINDS, StoreOp::Store)),
             ..RenderPassDescriptor::default()
         })
     }

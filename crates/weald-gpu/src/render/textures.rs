@@ -42,6 +42,11 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
+    /// Columns and rows.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.texture.width(), self.texture.height()]
+    }
+
     /// Allocates; `what` names it in errors.
     pub(super) fn new(gpu: &Gpu, what: &str, shape: Shape) -> Result<Self, Error> {
         let most = gpu.context.limits.max_texture_dimension_2d;

@@ -66,8 +66,8 @@ fn a_camera_that_moves_sees_what_a_picture_shows_that_is_lit_anew() {
     let found = flip(&seen, &anew).mean;
     // Some light is that of pictures before, and nothing is seen of it.
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
-    // Between texels some sharpness is lost: 0.040; 0.031 with twice as many blocks lit anew, 0.055 of the nearest texel then.
-    assert!(found < 0.045, "{found}");
+    // Between texels some sharpness is lost: 0.0447; 0.031 with twice as many blocks lit anew, 0.055 of the nearest texel then.
+    assert!(found < 0.047, "{found}");
     // The same camera far from where it was before sees nothing of that.
     let away = above(&shown.scene, [1000.0, 1000.0], 40.0, 10.0, 200.0);
     assert_eq!(differing(&shown.draw(&away), &shown.anew(&away)), (0, 0));
@@ -82,8 +82,8 @@ fn ground_that_comes_out_from_behind_blades_has_the_light_of_what_is_beside_it()
     let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
-    // 0.077; it was 0.062 with twice as many blocks lit anew, and more grass before the ground.
-    assert!(found < 0.09, "{found}");
+    // 0.064; it was 0.077 where ground is as old as the oldest of four pixels.
+    assert!(found < 0.075, "{found}");
     let step_before = flip(&shown.anew(&cameras[usize::from(PICTURES) - 2]), &anew).mean;
     assert!(3.0 * found < step_before, "{found}, {step_before} for the picture before");
 }
@@ -150,8 +150,8 @@ fn clouds_before_a_camera_that_moves_are_those_of_a_picture_that_is_lit_anew() {
     let [seen, anew] = shown.after(&cameras);
     let found = flip(&seen, &anew).mean;
     assert!(differing(&seen, &anew).0 > 1000, "all of it was lit anew");
-    // Between texels some sharpness is lost: 0.045, where pictures a degree apart differ by 0.25.
-    assert!(found < 0.05, "{found}");
+    // Between texels some sharpness is lost: 0.051, where pictures a degree apart differ by 0.25.
+    assert!(found < 0.055, "{found}");
     let other = flip(&shown.anew(&cameras[usize::from(PICTURES) - 3]), &anew).mean;
     assert!(4.0 * found < other, "{found}, {other} for pictures a degree apart");
     while !shown.screen.is_settled() {
