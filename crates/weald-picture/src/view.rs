@@ -18,6 +18,7 @@ mod cover;
 mod crags;
 mod crown_relief;
 mod drawn_rivers;
+mod facets;
 mod flow;
 mod follow;
 mod fractures;

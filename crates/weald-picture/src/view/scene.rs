@@ -4,6 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 use std::ops::Deref;
 
 use super::camera::{self, Camera};
+use super::facets;
 use super::ground_kinds::SurfacePoint;
 use super::keys::View;
 use super::lit_scene::{CUT_WATER, LitScene};
@@ -205,8 +206,13 @@ impl RayMarcher {
     /// Light of sun and sky on a normal.
     pub(super) fn lit(&self, point: Vector, normal: Vector, seen: &Seen) -> Vector {
         let facing = dot(normal, self.sky.sun).max(0.0);
+        add(self.sunlight(point, facing), skylight::on(seen, normal, self.bounce))
+    }
+
+    /// Light of the sun on what faces it so much.
+    fn sunlight(&self, point: Vector, facing: f32) -> Vector {
         let sun = if facing > 0.0 { facing * self.sun_seen(point) } else { 0.0 };
-        add(scale(self.sky.sunlight, sun), skylight::on(seen, normal, self.bounce))
+        scale(self.sky.sunlight, sun)
     }
 
     /// Dry ground, so many metres above the water beside it.
@@ -239,7 +245,9 @@ impl RayMarcher {
         ]);
         let width = water::swash_width(level, sea);
         let albedo = water::wetted(skin.albedo, above, water::wet_reach(width, slope, terrain.cell()));
-        let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
+        let seen = self.skylight.at(self.share(place));
+        let facing = facets::facing_sun([normal, rough, self.sky.sun], slope);
+        let light = add(self.sunlight(point, facing), skylight::on(&seen, rough, self.bounce));
         scale(filter(albedo, light), FRAC_1_PI)
     }
 

@@ -44,6 +44,24 @@ fn roughened(normal: vec3<f32>, bump: vec2<f32>) -> vec3<f32> {
     return normalize(vec3<f32>(normal.xy - normal.z * bump * scene.scale.y, normal.z));
 }
 
+// Slopes from which on a surface is a wall, of facets without gaps between them, and by which it is for certain.
+const WALLS = vec2<f32>(0.9, 1.8);
+
+// How much a wall faces the sun where its facets are seen as such: one that the sun grazes is evenly lit.
+const FACETS_SEEN = 0.4;
+
+// How much a facet of a surface faces the sun, less on walls by what others leave to it: in all as much falls on them as on the even
+// wall.
+fn facing_sun(even: vec3<f32>, facet: vec3<f32>) -> f32 {
+    let wall = max(dot(even, scene.sun.xyz), 0.0);
+    let facing = max(dot(facet, scene.sun.xyz), 0.0);
+    let seen = clamp(wall / max(facing * dot(even, facet), 1e-3), 0.0, 1.0);
+    let left = facing * seen * (1.0 + seen * (1.0 - seen));
+    let slope = length(even.xy) / max(even.z, 1e-3) / scene.scale.y;
+    let on_wall = mix(wall, left, ramp(wall, 0.0, FACETS_SEEN));
+    return mix(facing, on_wall, ramp(slope, WALLS.x, WALLS.y));
+}
+
 // A cut side.
 fn side_radiance(place: vec2<f32>, point: vec3<f32>, normal: vec3<f32>, sun: f32) -> vec3<f32> {
     let stretch = scene.scale.y;
