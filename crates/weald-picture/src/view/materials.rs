@@ -12,7 +12,7 @@ use weald_core::grain::Octaves;
 
 /// What beds of a face add to its tone, and the thick and the thin joints between them.
 const BEDS: f32 = 0.48;
-const JOINTS: [f32; 2] = [0.6, 0.45];
+const JOINTS: [f32; 2] = [0.45, 0.25];
 
 /// What blocks of a material and the cracks between them add to its tone, and how much they lean beside those of other rock: in
 /// dry country no soil hides edges.
@@ -110,8 +110,7 @@ impl Cover {
         let albedo = self.with_face(spot, (albedo, steep), TORN_EDGE * thick * grained);
         let rubble = (1.0 - steep) * self.sites.fallen(spot.place);
         let gentle = (1.0 - steep) * (PATCHES * texture.broad + DETAIL * texture.fine.value);
-        // What is hardly open is dark already.
-        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack.sqrt();
+        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = BEDS * (bed.tone + thin.tone) - JOINTS[0] * bed.joint - JOINTS[1] * thin.joint;
         let tone = toned(gentle + steep * (bedded + broken));
         let rough = texture.rough((1.0 - steep) * ROUGH, 0.3 + 1.2 * steep + RUBBLE_ROUGH * rubble);

@@ -2,7 +2,7 @@
 
 // What beds of a face add to its tone, and the thick and the thin joints between them.
 const BEDS = 0.48;
-const JOINTS = vec2<f32>(0.6, 0.45);
+const JOINTS = vec2<f32>(0.45, 0.25);
 
 // What blocks of a material and the cracks between them add to its tone, how much they lean beside those of other rock, and the
 // pixel at which they are looked at over that of the picture.
@@ -143,7 +143,7 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
     let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
     let gentle = (1.0 - steep) * (PATCHES * texture.broad + DETAIL * texture.fine.value);
     // What is hardly open is dark already.
-    let broken = BLOCKS.x * blocks.tone - BLOCKS.y * sqrt(blocks.crack);
+    let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = toned(gentle + steep * (bedded + broken));
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);
     let uneven = rough(texture, (1.0 - steep) * ROUGH, 0.3 + 1.2 * steep + RUBBLE_ROUGH * rubble);
