@@ -119,16 +119,25 @@ impl Ground {
         let around: &'static [Light] = if parts.has.horizon { &LIGHTS_BEYOND } else { &[] };
         let samples = parts.samples;
         let lights: Vec<_> = KindsOf::all(&LIGHTS, samples).chain(KindsOf::all(around, samples)).collect();
+        // What is seen from close by may be drawn as what is far away: one pipeline, compiled once.
+        let wanted = |of: &KindsOf<'_>| (of.light.fragment, of.is_behind, of.drawn(samples).0);
+        let is_first = |at: usize| lights[..at].iter().all(|of| wanted(of) != wanted(&lights[at]));
+        let distinct: Vec<_> = (0..lights.len()).filter(|&at| is_first(at)).map(|at| lights[at]).collect();
         let mut works: Vec<Box<dyn Fn() -> RenderPipeline + Sync>> = vec![
             Box::new(move || parts.sky(&BACKDROP[0])),
             Box::new(move || parts.light(&BACKDROP[1], false, CompareFunction::Equal)),
         ];
-        works.extend(lights.iter().map(|of| {
+        works.extend(distinct.iter().map(|of| {
             let make = move || parts.light(of.light, of.is_behind, of.drawn(samples).0);
             Box::new(make) as Box<dyn Fn() -> _ + Sync>
         }));
         let mut made = parts.context.side_by_side("making the pipelines of light", &works)?.into_iter();
         let backdrop = [made.next(), made.next()].map(|made| made.expect("as many as were asked for"));
+        let made: Vec<_> = distinct.iter().map(wanted).zip(made).collect();
+        let pipeline_of = |of: &KindsOf<'_>| {
+            let (_, pipeline) = made.iter().find(|(drawn, _)| *drawn == wanted(of)).expect("all were made");
+            pipeline.clone()
+        };
         Ok(Self {
             depth: HIDDEN_FACES.map(|hidden| parts.depth("ground_vertex", hidden)),
             beyond: parts
@@ -140,7 +149,7 @@ impl Ground {
             wet_beyond: (parts.has.horizon && parts.samples == 1)
                 .then(|| [true, false].map(|is_far| parts.wet_beyond(is_far))),
             clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
-            lights: made.zip(&lights).map(|(pipeline, of)| of.with(pipeline, samples)).collect(),
+            lights: lights.iter().map(|of| of.with(pipeline_of(of), samples)).collect(),
             backdrop,
         })
     }

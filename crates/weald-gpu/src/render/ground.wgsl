@@ -1,8 +1,8 @@
 // The light of the ground, pixel by pixel, when all of its triangles are drawn: those are smaller than pixels, and each
 // would be shaded in blocks of pixels. The depth of a pixel says where its point lies.
 //
-// What a pixel shows is one of a few kinds, which are written as depths of a canvas of their own; each kind of light is then
-// drawn where the depth is its own. A shader that branched would on software run all of its branches for all pixels.
+// What a pixel shows is one of a few kinds, which are written as depths of a canvas of their own (of pixels of one sample first as
+// numbers); each kind of light is then drawn where a comparison of depths finds its kinds. A shader that branched would on software run all of its branches for all pixels.
 
 // Kinds of ground, and of what is behind it, in the order in which ranges of them are drawn: each times `KIND` is a depth. Dry
 // ground beyond the border has the first kind and the last: what is wet of each is found by one comparison of depths.
@@ -39,7 +39,7 @@ const SAME_SURFACE = 0.02;
 // Metres of water in which no bed is seen.
 const OPEN_SEA = 1000.0;
 
-// All of the picture, where its kind is that of the instance.
+// All of the picture, where its kind compares to that of the instance as the pipeline says.
 @vertex
 fn whole_vertex(
     @builtin(vertex_index) index: u32,
@@ -111,8 +111,8 @@ fn kind_seen(position: vec2<f32>, surface: SeenSurface) -> u32 {
     return kind;
 }
 
-// The kind of a pixel of one sample, as a number of a canvas of colours: what is lit by then is left at once by its depth, which no
-// shader can be that writes depths.
+// The kind of a pixel of one sample, as a number of a canvas of colours: pixels that are lit are left by the test of depths before the
+// shader runs; that of a shader which writes depths comes after it.
 @fragment
 fn kind_fragment(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     return select(kind_seen(position.xy, surface_of(position.xy, false)), HIDDEN, is_hidden(position.xy, 0));
@@ -127,7 +127,7 @@ fn kind_depth_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_
 }
 
 // Leaves of dry ground beyond the border, for which comparing depths selects, what is wet: of ground that lies there the height
-// is dear, and software works it out for all pixels of what writes depths.
+// is dear, and software works it out for all pixels of a shader that has a branch for it.
 @fragment
 fn wet_beyond_fragment(@builtin(position) position: vec4<f32>) {
     let place = place_of(seen_point(position));

@@ -4,9 +4,9 @@
 @group(2) @binding(6) var light_before: texture_2d<f32>;
 @group(2) @binding(7) var depths_before: texture_depth_2d;
 
-// What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, and
-// nothing where something else than ground is seen. A block in whose middle it is as old as OLDEST is lit anew as a whole, for
-// which software takes as long as for one of its pixels; what is as old as LAST elsewhere is not taken either.
+// What the light of ground has as its opacity: 1 where it was made anew, less by AGE for each picture that took it, in the mean of the
+// pixels that it was taken from, and nothing where something else than ground is seen. A block in whose middle it is as old as OLDEST is lit anew as a whole, for
+// which software takes as long as for one of its pixels; what is in the mean as old as LAST elsewhere is not taken either.
 const AGE = 0.0625;
 const OLDEST = 0.5;
 const LAST = 0.3;

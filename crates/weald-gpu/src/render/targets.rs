@@ -115,7 +115,7 @@ impl Targets {
         let view = &self.numbers.view;
         let attachment = RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops };
         encoder.begin_render_pass(&RenderPassDescriptor {
-            depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Store)),
+            depth_stencil_attachment: Some(depths(&self.kinds, load, StoreOp::Discard)),
             ..described("kinds by number", &[Some(attachment)], None)
         })
     }

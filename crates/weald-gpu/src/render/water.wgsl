@@ -222,7 +222,9 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, sky: vec3<f32>, length
     sight = -direction / vec3<f32>(1.0, 1.0, scene.scale.y);
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
-    let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;
+    let rough = roughened(normal, skin.bump);
+    let in_sun = scene.sunlight.xyz * (facing_sun(normal, rough) * sun);
+    let radiance = skin.albedo * (in_sun + skylight_on(seen_at(skylight, share_of(place)), rough)) / PI;
     return mix(sky, veil(radiance, start, direction, land.ray_length), land.share);
 }
 

@@ -1,4 +1,4 @@
-//! How much facets of rock face the sun, less by what others leave to them: in all as much light falls on them as on the even wall.
+//! How much facets of rock face the sun, as far as others leave it to them: in all about as much light falls on them as on the even wall.
 //! Without that, facets of walls that the sun grazes are strips, bright ones beside dark ones.
 //!
 //! Chiang, Li and Burley 2019, "Taming the shadow terminator", doi 10.1145/3306307.3328172: of a facet of normal s on a surface of

@@ -142,7 +142,6 @@ fn of_material(spot: SurfacePoint, mingled: vec3<f32>, texture: Texture) -> Surf
     let albedo = with_face(spot, mingled, steep, TORN_EDGE * thick * grained);
     let rubble = (1.0 - steep) * smooth_at(site, spot.place).w;
     let gentle = (1.0 - steep) * (PATCHES * texture.broad + DETAIL * texture.fine.value);
-    // What is hardly open is dark already.
     let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
     let tone = toned(gentle + steep * (bedded + broken));
     let ledge = steep * (0.35 * bedding.thick.ledge + 0.25 * bedding.thin.ledge);

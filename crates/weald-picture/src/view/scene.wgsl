@@ -1,4 +1,4 @@
-// Twin of `scene.rs`: the light that starts at ground, cut sides and the plain, for the share of the sun that is seen.
+// Twin of `scene.rs` and `facets.rs`: the light that starts at ground, cut sides and the plain, for the share of the sun that is seen.
 
 fn lit(normal: vec3<f32>, seen: Seen, sun: f32) -> vec3<f32> {
     let facing = max(dot(normal, scene.sun.xyz), 0.0);
@@ -50,8 +50,8 @@ const WALLS = vec2<f32>(0.9, 1.8);
 // How much a wall faces the sun where its facets are seen as such: one that the sun grazes is evenly lit.
 const FACETS_SEEN = 0.4;
 
-// How much a facet of a surface faces the sun, less on walls by what others leave to it: in all as much falls on them as on the even
-// wall.
+// How much a facet of a surface faces the sun, on walls as far as others leave it to it: in all about as much falls on them as on the
+// even wall.
 fn facing_sun(even: vec3<f32>, facet: vec3<f32>) -> f32 {
     let wall = max(dot(even, scene.sun.xyz), 0.0);
     let facing = max(dot(facet, scene.sun.xyz), 0.0);
