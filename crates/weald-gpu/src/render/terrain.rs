@@ -199,7 +199,9 @@ impl Terrain {
     fn viewpoint(&self, [east, north, up]: [f32; 3]) -> Viewpoint {
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
-        Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
+        // Without what it may have risen since: ground that is followed has the levels of the same ground that is not.
+        let highest = self.heights.highest() - self.heights.slack();
+        Viewpoint { place, above: (up - highest).max(0.0) }
     }
 
     /// Metres from a point to the nearest ground that a camera sees, with plants so high on it, or to the plain below a block.
