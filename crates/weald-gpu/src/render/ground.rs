@@ -116,6 +116,25 @@ pub(super) struct Ground {
 impl Ground {
     /// Compiles all, that of light side by side: each takes seconds on some drivers.
     pub(super) fn new(parts: Parts<'_>) -> Result<Self, Error> {
+        let (backdrop, lights) = Self::lights(parts)?;
+        Ok(Self {
+            depth: HIDDEN_FACES.map(|hidden| parts.depth("ground_vertex", hidden)),
+            beyond: parts
+                .has
+                .horizon
+                .then(|| HIDDEN_FACES.map(|hidden| parts.depth("beyond_vertex", hidden))),
+            number: (parts.samples == 1).then(|| parts.number()),
+            kind: parts.kind(),
+            wet_beyond: (parts.has.horizon && parts.samples == 1)
+                .then(|| [true, false].map(|is_far| parts.wet_beyond(is_far))),
+            clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
+            lights,
+            backdrop,
+        })
+    }
+
+    /// The light of what lies behind the landscape, and that of each kind of ground.
+    fn lights(parts: Parts<'_>) -> Result<([RenderPipeline; 2], Vec<KindsLight>), Error> {
         let around: &'static [Light] = if parts.has.horizon { &LIGHTS_BEYOND } else { &[] };
         let samples = parts.samples;
         let lights: Vec<_> = KindsOf::all(&LIGHTS, samples).chain(KindsOf::all(around, samples)).collect();
@@ -138,20 +157,8 @@ impl Ground {
             let (_, pipeline) = made.iter().find(|(drawn, _)| *drawn == wanted(of)).expect("all were made");
             pipeline.clone()
         };
-        Ok(Self {
-            depth: HIDDEN_FACES.map(|hidden| parts.depth("ground_vertex", hidden)),
-            beyond: parts
-                .has
-                .horizon
-                .then(|| HIDDEN_FACES.map(|hidden| parts.depth("beyond_vertex", hidden))),
-            number: (parts.samples == 1).then(|| parts.number()),
-            kind: parts.kind(),
-            wet_beyond: (parts.has.horizon && parts.samples == 1)
-                .then(|| [true, false].map(|is_far| parts.wet_beyond(is_far))),
-            clouds: parts.has.clouds.then(|| [parts.clouds(), parts.clouds_over()]),
-            lights: lights.iter().map(|of| of.with(pipeline_of(of), samples)).collect(),
-            backdrop,
-        })
+        let lights = lights.iter().map(|of| of.with(pipeline_of(of), samples)).collect();
+        Ok((backdrop, lights))
     }
 
     /// Draws the depths of all triangles.

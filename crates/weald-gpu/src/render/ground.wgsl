@@ -262,7 +262,7 @@ fn skin_light(point: vec3<f32>, look: Look, skin: SurfaceSample) -> vec4<f32> {
     // Grass is rounder than what it grows on.
     let normal = roughened(look.normal, skin.bump * through_leaves(lawn.w, 0.3));
     let seen = seen_at(skylight, share_of(look.place));
-    let in_sun = skin.albedo * scene.sunlight.xyz * (facing_sun(look.normal, normal) * look.sun) / PI;
+    let in_sun = skin.albedo * sunlight_on_facet(look.normal, normal, look.sun) / PI;
     let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
     var radiance = in_sun + under_sky;
     if LAWN && lawn.w > 1e-4 {

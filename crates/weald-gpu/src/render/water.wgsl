@@ -223,8 +223,7 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, sky: vec3<f32>, length
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
     let rough = roughened(normal, skin.bump);
-    let in_sun = scene.sunlight.xyz * (facing_sun(normal, rough) * sun);
-    let radiance = skin.albedo * (in_sun + skylight_on(seen_at(skylight, share_of(place)), rough)) / PI;
+    let radiance = skin.albedo * (sunlight_on_facet(normal, rough, sun) + skylight_on(seen_at(skylight, share_of(place)), rough)) / PI;
     return mix(sky, veil(radiance, start, direction, land.ray_length), land.share);
 }
 

@@ -224,7 +224,7 @@ fn shadows_lie_where_the_ray_marched_view_has_them() {
         for camera in [None, Some(low)] {
             let (mean, worst) = distances(&gpu, &view, &landscape, camera);
             // Crags throw shadows that are finer than the texels of a cascade, edges of one ray a pixel are ragged, and the ground
-            // lies off by up to one and a half: 0.0055 and 0.0236, less than 0.005 and 0.022 where it lies off by one.
+            // lies off by up to one and a half pixels: 0.0055 and 0.0236, less than 0.005 and 0.022 with one.
             assert!(mean < 0.006 && worst < 0.025, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
         }
     }
@@ -238,7 +238,7 @@ fn lakes_lie_where_the_ray_marched_view_has_them_in_its_colours() {
     let low = above(&scene, [1500.0, 2700.0], 250.0, 20.0, 0.0);
     for camera in [None, Some(low)] {
         let (mean, worst) = distances(&gpu, &view(), &landscape, camera);
-        // It mirrors the land at the same places, but with finer ripples: 0.0101, less than 0.010 where the ground lies off by one pixel.
+        // It mirrors the land at the same places, but with finer ripples: 0.0101, less than 0.010 where the ground was off by a pixel.
         assert!(mean < 0.011 && worst < 0.05, "mean {mean}, one in twenty {worst}");
     }
 }

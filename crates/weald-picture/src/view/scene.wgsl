@@ -50,16 +50,21 @@ const WALLS = vec2<f32>(0.9, 1.8);
 // How much a wall faces the sun where its facets are seen as such: one that the sun grazes is evenly lit.
 const FACETS_SEEN = 0.4;
 
-// How much a facet of a surface faces the sun, on walls as far as others leave it to it: in all about as much falls on them as on the
-// even wall.
-fn facing_sun(even: vec3<f32>, facet: vec3<f32>) -> f32 {
-    let wall = max(dot(even, scene.sun.xyz), 0.0);
-    let facing = max(dot(facet, scene.sun.xyz), 0.0);
+// How much a facet of a surface of such a slope faces the sun, on walls as far as others leave it to it: in all about as much falls on
+// them as on the even wall.
+fn facing_sun(even: vec3<f32>, facet: vec3<f32>, sun: vec3<f32>, slope: f32) -> f32 {
+    let wall = max(dot(even, sun), 0.0);
+    let facing = max(dot(facet, sun), 0.0);
     let seen = clamp(wall / max(facing * dot(even, facet), 1e-3), 0.0, 1.0);
     let left = facing * seen * (1.0 + seen * (1.0 - seen));
-    let slope = length(even.xy) / max(even.z, 1e-3) / scene.scale.y;
     let on_wall = mix(wall, left, ramp(wall, 0.0, FACETS_SEEN));
     return mix(facing, on_wall, ramp(slope, WALLS.x, WALLS.y));
+}
+
+// The light of the sun on a facet of a surface.
+fn sunlight_on_facet(even: vec3<f32>, facet: vec3<f32>, sun: f32) -> vec3<f32> {
+    let slope = length(even.xy) / max(even.z, 1e-3) / scene.scale.y;
+    return scene.sunlight.xyz * (facing_sun(even, facet, scene.sun.xyz, slope) * sun);
 }
 
 // A cut side.

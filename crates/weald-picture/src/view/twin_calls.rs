@@ -3,6 +3,7 @@
 use super::crags::crags;
 use super::crown_relief::crown_height;
 use super::drawn_rivers::with_banks;
+use super::facets::facing_sun;
 use super::fractures::{Face, Fractures, fractures};
 use super::rock::{BedSpot, Beds, beds};
 use super::slope_grain::on_slope;
@@ -131,6 +132,26 @@ fn rock() -> Vec<Twin> {
                 let face = Face { place: [x, y], level, normal, thickness, footprint };
                 let Fractures { tone, crack, facet, ledge } = fractures(&face);
                 [tone, crack, facet[0], ledge]
+            },
+        ),
+        Twin::of(
+            "facing_sun",
+            "let at = facing_sun(normalize(a.xyz), normalize(b.xyz), normalize(vec3<f32>(a.w, b.w, 0.5)), c.x);
+             return vec4<f32>(at, 0.0, 0.0, 0.0);",
+            &[
+                [-1.0, 1.0],
+                [-1.0, 1.0],
+                [0.1, 1.0],
+                [-1.0, 1.0],
+                [-1.0, 1.0],
+                [-1.0, 1.0],
+                [0.1, 1.0],
+                [-1.0, 1.0],
+                [0.0, 3.0],
+            ],
+            |[a, b, c, east, d, e, f, north, slope, ..]| {
+                let [even, facet, sun] = [[a, b, c], [d, e, f], [east, north, 0.5]].map(unit);
+                [facing_sun([even, facet, sun], slope), 0.0, 0.0, 0.0]
             },
         ),
         Twin::of(
