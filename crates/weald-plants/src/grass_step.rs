@@ -54,6 +54,9 @@ parameters! {
         /// What grows: `[{ name = "reed", share = 2, where = [{ layer = "moisture", above = 0.9 }] }, …]`. Without any,
         /// ryegrass.
         species: Vec<Nested<Kind>> = Vec::new();
+        /// How much sets of a tussock, which is 0.7 m wide, share: of so many the species, and all of them soil that is by up to half of
+        /// that better or worse than the layer's. With 0, as in the publication, each set stands alone.
+        tussocks: f64 = 0.6, range 0.0..=1.0;
         /// Depth of the layer `water`, where there is one, up to which grass stands in it.
         water: f64 = 0.05, range 0.0..=1.0e4, unit "m";
         /// How far it has grown: 0 is bare ground, 1 full-grown; a blade has four segments, one for each quarter.
@@ -148,6 +151,7 @@ impl Step for Grass {
             level: (self.age * LEVELS as f64) as f32,
             mown_height: self.mown_height as f32,
             deepest: self.water as f32,
+            tussocks: self.tussocks as f32,
             maps,
         };
         let notes = [&self.soil, &self.light, &self.density]

@@ -123,6 +123,7 @@ fn meadow() -> Meadow {
         level: LEVELS as f32,
         mown_height: 0.05,
         deepest: 0.0,
+        tussocks: 0.6,
         maps: Maps {
             cell: 1.0,
             valid: None,

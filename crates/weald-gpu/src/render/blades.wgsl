@@ -4,6 +4,9 @@
 @group(2) @binding(2) var lit_sets: texture_2d<u32>;
 @group(2) @binding(3) var blades: texture_2d<u32>;
 
+// Leaf area above a leaf from which on it is no darker: stands are some metres wide, and light comes from their sides as well.
+const DEEPEST_IN_LEAVES = 2.5;
+
 // A corner of a blade, in few numbers: what draws triangles works on each, and the point follows from where a pixel is.
 struct Leaf {
     @builtin(position) position: vec4<f32>,
@@ -38,7 +41,7 @@ fn leaf(list: u32, ends: ListEnds, vertex_number: u32, instance_number: u32) -> 
     let here = swayed(blade, vertex_of(blade, along, side), vec2<f32>(lit.push.x, -lit.push.y));
     let point = lit.root + vec3<f32>(here.place.x, -here.place.z, here.place.y * lit.tall - 0.02);
     let normal = vec3<f32>(here.normal.x, -here.normal.z, here.normal.y);
-    let above = lit.light.y * (1.0 - along);
+    let above = min(lit.light.y * (1.0 - along), DEEPEST_IN_LEAVES);
     return Leaf(
         projected(point),
         vec4<f32>(normal, lit.light.x * through_leaves(above, scene.sun.z)),

@@ -137,6 +137,7 @@ fn meadow(sets: u32, cell: f64, water: Option<Field>) -> Meadow {
         level: 4.0,
         mown_height: 0.05,
         deepest: 0.0,
+        tussocks: 0.6,
         maps,
     };
     // None stand in the water and beyond the centres of the outermost cells.

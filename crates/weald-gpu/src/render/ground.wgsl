@@ -256,31 +256,37 @@ fn seen_through_air(radiance: vec3<f32>, look: Look) -> vec3<f32> {
     return limited(veil(radiance, frame.eye.xyz, look.direction, look.ray_length));
 }
 
-// The light of dry ground of such a skin.
-fn skin_light(point: vec3<f32>, look: Look, skin: SurfaceSample) -> vec4<f32> {
-    let lawn = leaves_at(look.place);
+fn ray_of(look: Look) -> ViewRay {
+    return ViewRay(look.direction, look.ray_length, look.footprint);
+}
+
+// The light of dry ground of such a skin, which is that of a point to look at from straight above.
+fn skin_light(at: vec2<f32>, look: Look, lawn: vec4<f32>, skin: SurfaceSample) -> vec4<f32> {
     // Grass is rounder than what it grows on.
     let normal = roughened(look.normal, skin.bump * through_leaves(lawn.w, 0.3));
     let seen = seen_at(skylight, share_of(look.place));
     let in_sun = skin.albedo * sunlight_on_facet(look.normal, normal, look.sun) / PI;
     let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
     var radiance = in_sun + under_sky;
-    if LAWN && lawn.w > 1e-4 {
-        let ray = ViewRay(look.direction, look.ray_length, look.footprint);
-        radiance = with_canopy(in_sun, under_sky, lawn, point, look.normal, ray, seen, look.sun);
+    if LAWN && lawn.w > NO_LEAVES {
+        radiance = with_canopy(SoilLight(in_sun, under_sky), lawn, at, look.normal, ray_of(look), seen, look.sun);
     }
     return vec4<f32>(seen_through_air(radiance, look), GROUND_LIGHT);
 }
 
 // Dry ground from afar.
 fn far_light(point: vec3<f32>, look: Look) -> vec4<f32> {
-    return skin_light(point, look, ground_skin_at(look.place, point.xy, look.surface, look.footprint, look.above));
+    let lawn = leaves_at(look.place);
+    let at = seen_in_grass(point.xy, look.normal, ray_of(look), lawn);
+    return skin_light(at, look, lawn, ground_skin_at(look.place, at, look.surface, look.footprint, look.above));
 }
 
 // Dry ground from close by.
 fn near_light(point: vec3<f32>, look: Look) -> vec4<f32> {
-    let skin = ground_skin_at(look.place, point.xy, look.surface, look.footprint, look.above);
-    return skin_light(point, look, with_detail(skin, point, look.normal, look.footprint));
+    let lawn = leaves_at(look.place);
+    let at = seen_in_grass(point.xy, look.normal, ray_of(look), lawn);
+    let skin = ground_skin_at(look.place, at, look.surface, look.footprint, look.above);
+    return skin_light(at, look, lawn, with_detail(skin, vec3<f32>(at, point.z), look.normal, look.footprint));
 }
 
 // Water, and its share.

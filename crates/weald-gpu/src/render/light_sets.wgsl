@@ -23,11 +23,15 @@ fn store_blade(place: u32, blade: Blade) {
 
 fn lit(instance: Instance, root: vec3<f32>, distance: f32) -> LitSet {
     let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
+    let ground = normal_of(spline_with_slope(bed, place_of(root)).yz);
+    // Blades that stand for others as well are as bright as those are in the mean.
+    let drawn = drawn_as_blades(distance);
+    let reached = mix(sunlit_leaves(ground, normalize(root - frame.eye.xyz)), 1.0, drawn * drawn);
     let growth = growth_at(instance.species, instance.tuft.soil, instance.tuft.light);
     return LitSet(
         root,
         wind_push(instance.place * vec2<f32>(1.0, -1.0), frame.moment.x, phase_of(instance.tuft)),
-        vec2<f32>(sun, leaves_at(place_of(root)).w),
+        vec2<f32>(sun * reached, leaves_at(place_of(root)).w),
         colour_of(instance.species, growth.blend, 0.0),
         colour_of(instance.species, growth.blend, 1.0),
         row_of(instance.species, 4u).z,

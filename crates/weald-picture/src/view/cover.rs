@@ -155,7 +155,7 @@ impl Cover {
             albedo: self.palette.snow,
             bump: texture.rough(0.08, ramp(spot.slope, 0.2, 0.8)),
         };
-        let white = self.snow(spot, texture);
+        let white = self.snow(spot, texture, trees);
         let mut open = ground.mixed(&snow, white);
         open.bump = no_steeper(open.bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * bare * (1.0 - white));
         let density = trees * self.off_cliffs(spot, texture) * (1.0 - white) * (1.0 - sand) * (1.0 - washed);
@@ -192,8 +192,8 @@ impl Cover {
         mix(low, mix(alpine, dry, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8))
     }
 
-    /// Share of snow.
-    pub(super) fn snow(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
+    /// Share of snow where trees stand so densely.
+    pub(super) fn snow(&self, spot: &SurfacePoint, texture: &Texture, wooded: f32) -> f32 {
         let above = (spot.point[2] - self.limits.snow) / self.limits.relief.max(1e-3);
         if !above.is_finite() {
             return 0.0;
@@ -205,6 +205,7 @@ impl Cover {
             fall: spot.fall,
             hollow: self.sites.moisture(spot.place) - 0.5,
             noise: [texture.broad, texture.fine.value, -texture.crags.height],
+            wooded,
         })
     }
 

@@ -181,7 +181,7 @@ fn wood_at(spot: SurfacePoint) -> vec2<f32> {
     let bare = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
     let strand = beach_at(spot, texture);
     let dry = (1.0 - strand.x) * (1.0 - strand.y);
-    let density = wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x)) * dry;
+    let density = wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x, wooded)) * dry;
     return vec2<f32>(density, share_of_conifers(spot.point.z));
 }
 
@@ -235,7 +235,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let green = GREEN * blocks.ledge * (1.0 - ramp(high, GREEN_UP_TO.x, GREEN_UP_TO.y));
     let ground = mixed(stony, mixed(rock(spot, texture, blocks), meadow, green), bare);
     let snow = SurfaceSample(scene.snow.xyz, rough(texture, 0.08, ramp(spot.slope, 0.2, 0.8)), vec4<f32>(0.0, 0.0, 0.0, 1.0));
-    let white = snow_at(spot, texture, moisture);
+    let white = snow_at(spot, texture, moisture, wooded);
     var open = mixed(ground, snow, white);
     open.bump = no_steeper(open.bump, mix(STEEPEST, STEEPEST_ROCK, bare * (1.0 - white)));
     let cliff = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
@@ -358,12 +358,12 @@ fn bedding_at(spot: SurfacePoint, thickness: vec2<f32>, fold: f32, dips: bool) -
 // From which line on there is no snow at all.
 const NO_SNOW = 9e29;
 
-// Share of snow.
-fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32) -> f32 {
+// Share of snow where trees stand so densely.
+fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32, wooded: f32) -> f32 {
     if is_above(scene.limits.z, NO_SNOW, spot.footprint) {
         return 0.0;
     }
     let above = (spot.point.z - scene.limits.z) / max(scene.limits.w, 1e-3);
     let noise = vec3<f32>(texture.broad, texture.fine.value, -texture.crags.height);
-    return snow_share(SnowSpot(above, spot.slope, spot.slope / scene.limits.x, spot.fall, moisture - 0.5, noise));
+    return snow_share(SnowSpot(above, spot.slope, spot.slope / scene.limits.x, spot.fall, moisture - 0.5, noise, wooded));
 }

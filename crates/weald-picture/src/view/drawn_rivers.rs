@@ -3,7 +3,7 @@
 //! They are the lines of the relief picture, as wide as the usual bankfull width of a river of their basin,
 //! `2.7 m · (area in km²)^0.4` (after Leopold and Maddock 1953, USGS PP 252), times a factor.
 
-use super::vector::Vector;
+use super::vector::{Vector, ramp};
 use crate::rivers;
 use crate::strokes::{Point, Strokes};
 use weald_core::grain::Octaves;
@@ -15,6 +15,9 @@ const RIVER_SIDE: usize = 4096;
 
 /// Pixels of the map within which a thinner river's water is shared out.
 const THINNEST: f32 = 2.0;
+
+/// Widths over that between which rivers come into sight.
+const BROOKS: [f32; 2] = [0.2, 0.6];
 
 /// Bankfull width in metres of a river that drains a square kilometre, and its growth with the area.
 const BANKFULL: f32 = 2.7;
@@ -63,10 +66,12 @@ impl Rivers {
             // Where springs feed it, a river may carry more than all of the land would: it is drawn as draining that.
             let area = reach.area.min(domain.size.cells() as f32) * square_kilometres;
             let metres = BANKFULL * libm::powf(area, BANKFULL_GROWTH) * broader as f32;
-            let width = metres / domain.cell as f32 * scale * unevenly_wide(reach.place);
+            let even = metres / domain.cell as f32 * scale;
+            let width = even * unevenly_wide(reach.place);
             let [x, y] = winding(reach.place).map(|along| along * scale);
-            // A thinner line would come and go as it runs through pixels or between them.
-            let [drawn, opacity] = [width.max(THINNEST), (width / THINNEST).min(1.0)];
+            // A thinner line would come and go as it runs through pixels or between them. It grows downstream alone: by its narrows and
+            // pools a brook would be seen in pieces.
+            let [drawn, opacity] = [width.max(THINNEST), ramp(even / THINNEST, BROOKS[0], BROOKS[1])];
             Point { x, y, width: drawn, opacity }
         })?;
         Some(Self { strokes, width, height })
@@ -184,8 +189,8 @@ mod tests {
 
     #[test]
     fn a_river_thinner_than_the_maps_pixels_does_not_come_and_go() {
-        // Less than half a pixel wide, as it winds through pixels and between them.
-        let rivers = Rivers::of(&valley(100.0), 0.6).expect("a river");
+        // Less than a pixel wide, as it winds through pixels and between them.
+        let rivers = Rivers::of(&valley(100.0), 1.8).expect("a river");
         let there = |y: f32| {
             let across = (0..120).map(|x| rivers.at([(29.5 + x as f32 / 20.0) / 64.0, y / 64.0]));
             across.fold(0.0, f32::max)

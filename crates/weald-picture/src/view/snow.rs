@@ -14,6 +14,12 @@ const SCALE: f32 = 0.16;
 const SUN: f32 = 0.8;
 const WIND: f32 = 0.35;
 
+/// Densities of woods between which patches of snow and what hollows hold become less, down to nothing.
+const WOODS: [f32; 2] = [0.1, 0.6];
+
+/// What crowns hide of it.
+const HIDDEN: f32 = 0.8;
+
 /// What snow lies on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SnowSpot {
@@ -28,19 +34,23 @@ pub(super) struct SnowSpot {
     pub(super) hollow: f32,
     /// Noise: patches of many cells, detail finer than a cell, gullies.
     pub(super) noise: [f32; 3],
+    /// How densely trees stand, 0 to 1.
+    pub(super) wooded: f32,
 }
 
 /// Share of the ground that snow hides.
 pub(super) fn snow_share(spot: &SnowSpot) -> f32 {
     let [broad, fine, gully] = spot.noise;
+    // What drifts into hollows and slides down gullies lies in the open: below trees snow lies evenly.
+    let open = 1.0 - ramp(spot.wooded, WOODS[0], WOODS[1]);
     let sloping = ramp(spot.slope, 0.1, 0.6);
     let aspect = sloping * (SUN * spot.fall[1] + WIND * spot.fall[0]);
     // It slides off what is a third steeper than bare rock.
     let hold = (1.3 - spot.steepness).min(0.6);
-    let score = spot.above / SCALE + aspect + 1.6 * hold + 1.3 * spot.hollow;
+    let score = spot.above / SCALE + aspect + 1.6 * hold + 1.3 * open * spot.hollow - HIDDEN * (1.0 - open);
     let whole = ramp(score, -0.2, 2.0);
-    let patches = 4.0 * whole * (1.0 - whole) * (0.6 * broad + 0.4 * fine + 1.4 * gully);
-    let dusting = 0.25 * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
+    let patches = 4.0 * open * whole * (1.0 - whole) * (0.6 * broad + 0.4 * fine + 1.4 * gully);
+    let dusting = 0.25 * open * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
     ramp(whole + patches, 0.38, 0.62).max(dusting)
 }
 
@@ -49,7 +59,15 @@ mod tests {
     use super::*;
 
     fn spot() -> SnowSpot {
-        SnowSpot { above: 0.0, slope: 0.4, steepness: 0.6, fall: [0.0; 2], hollow: 0.0, noise: [0.0; 3] }
+        SnowSpot {
+            above: 0.0,
+            slope: 0.4,
+            steepness: 0.6,
+            fall: [0.0; 2],
+            hollow: 0.0,
+            noise: [0.0; 3],
+            wooded: 0.0,
+        }
     }
 
     fn line(of: impl Fn(f32) -> SnowSpot) -> f32 {
@@ -76,5 +94,19 @@ mod tests {
         assert!(share(0.4) > 0.8 && share(-0.4) < 0.2, "{} and {}", share(0.4), share(-0.4));
         let far = |above: f32, fine: f32| snow_share(&SnowSpot { above, noise: [0.0, fine, 0.0], ..spot() });
         assert!(far(0.3, -0.5) > 0.95 && far(-0.4, 0.5) < 0.05);
+    }
+
+    #[test]
+    fn no_patch_of_snow_lies_in_a_wood_below_the_line() {
+        let gully = |above: f32, wooded: f32| {
+            snow_share(&SnowSpot { above, wooded, noise: [0.0, 0.0, 0.5], ..spot() })
+        };
+        let below = (-300..0)
+            .map(|step| 0.001 * step as f32)
+            .filter(|&above| snow_share(&SnowSpot { above, ..spot() }) < 0.3);
+        let below: Vec<_> = below.filter(|&above| gully(above, 0.0) > 0.5).collect();
+        assert!(below.len() > 5, "in the open a gully has some: {}", below.len());
+        assert!(below.iter().all(|&above| gully(above, 1.0) == 0.0));
+        assert!(gully(0.35, 1.0) > 0.95, "high up all is white");
     }
 }

@@ -156,7 +156,7 @@ fn rock() -> Vec<Twin> {
         ),
         Twin::of(
             "snow_share",
-            "return vec4<f32>(snow_share(SnowSpot(a.x, a.y, a.z, b.xy, a.w, c.xyz)), 0.0, 0.0, 0.0);",
+            "return vec4<f32>(snow_share(SnowSpot(a.x, a.y, a.z, b.xy, a.w, c.xyz, b.z)), 0.0, 0.0, 0.0);",
             &[
                 [-0.5, 0.5],
                 [0.0, 1.5],
@@ -164,15 +164,16 @@ fn rock() -> Vec<Twin> {
                 [-0.5, 0.5],
                 [-0.7, 0.7],
                 [-0.7, 0.7],
-                [0.0, 0.0],
+                [0.0, 1.0],
                 [0.0, 0.0],
                 [-0.5, 0.5],
                 [-0.5, 0.5],
                 [-0.5, 0.5],
             ],
-            |[above, slope, steepness, hollow, east, north, _, _, broad, fine, gully, _]| {
+            |[above, slope, steepness, hollow, east, north, wooded, _, broad, fine, gully, _]| {
                 let fall = [east, north];
-                let spot = SnowSpot { above, slope, steepness, fall, hollow, noise: [broad, fine, gully] };
+                let noise = [broad, fine, gully];
+                let spot = SnowSpot { above, slope, steepness, fall, hollow, noise, wooded };
                 [snow_share(&spot), 0.0, 0.0, 0.0]
             },
         ),

@@ -40,7 +40,7 @@ impl Cover {
         let [sand, washed] = Self::beach(spot, &texture);
         let density = trees
             * self.off_cliffs(spot, &texture)
-            * (1.0 - self.snow(spot, &texture))
+            * (1.0 - self.snow(spot, &texture, trees))
             * (1.0 - sand)
             * (1.0 - washed);
         [density, self.share_of_conifers(spot.point[2])]

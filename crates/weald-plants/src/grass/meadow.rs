@@ -7,7 +7,8 @@
 //! All of it is a function of the seed, the square and the maps: tiles together are the whole.
 //!
 //! The source (Kim and Cho 2009) reads soil, light and density from three images; a cell holds so many sets. Here the maps
-//! are those of the landscape, between the centres of cells bilinear.
+//! are those of the landscape, between the centres of cells bilinear. The soil of a meadow differs within a metre, and one plant grows
+//! many leaves: sets of a tussock share better or worse soil, and most of them a species ([`Meadow::tussocks`]).
 
 use rayon::prelude::*;
 
@@ -35,6 +36,8 @@ pub struct Meadow {
     pub mown_height: f32,
     /// Depth of water in metres up to which grass stands.
     pub deepest: f32,
+    /// Of the sets of a tussock the share that is of one species, and how much worse the worst of their soils is than the best: 0 to 1.
+    pub tussocks: f32,
     /// What the ground says.
     pub maps: Maps,
 }
@@ -70,6 +73,9 @@ pub struct Area {
     /// South-eastern corner.
     pub high: [f64; 2],
 }
+
+/// Metres from one tussock to the next: those of meadows are some decimetres wide.
+const TUSSOCK: f32 = 0.7;
 
 /// Share of a square in which its place lies.
 const JITTER: f64 = 0.8;
@@ -170,9 +176,10 @@ impl<'a> Row<'a> {
             return None;
         }
         let share = |map: &Option<Field>| map.as_ref().map_or(0.0, |map| corners.value(map).clamp(0.0, 1.0));
-        let species = maps.species(&corners, bits);
+        let tussock = Tussock::of(meadow, place, bits);
+        let species = maps.species(&corners, bits, tussock);
         let tuft = Set {
-            soil: corners.value(&maps.soil),
+            soil: (corners.value(&maps.soil) + tussock.better).clamp(0.0, 1.0),
             light: corners.value(&maps.light),
             level: meadow.level,
             cut: meadow.cut(species, share(&maps.mown)),
@@ -181,6 +188,39 @@ impl<'a> Row<'a> {
         };
         Some(Instance { place, species: species as u32, tuft }.pack())
     }
+}
+
+/// What the sets of a tussock share.
+#[derive(Clone, Copy)]
+struct Tussock {
+    /// How much better its soil is than that of the map.
+    better: f32,
+    /// The random number by which its species is chosen, and the share of its sets that are of it.
+    kind: f32,
+    alike: f32,
+}
+
+impl Tussock {
+    /// The one to which a set belongs: that of one of the four points of a lattice around its place, each by its weight, so that tussocks
+    /// reach into each other. The lattice is turned, so that it is none of the cells'.
+    #[inline]
+    fn of(meadow: &Meadow, [x, y]: [f32; 2], bits: u64) -> Self {
+        let turned = [0.8 * x + 0.6 * y, 0.8 * y - 0.6 * x].map(|along| along * (1.0 / TUSSOCK));
+        // Of the bits of a set those that nothing else is drawn by.
+        let random = [32, 40].map(|shift| f32::from((bits >> shift) as u8) * (1.0 / 256.0));
+        let [u, v] = [0, 1].map(|axis| below(turned[axis] + random[axis]) as u32);
+        let own = splitmix64(!meadow.seed ^ (u64::from(u) << 32 | u64::from(v)));
+        let random = [own as u16, (own >> 16) as u16].map(|bits| f32::from(bits) * (1.0 / 65536.0));
+        let alike = meadow.tussocks;
+        Self { better: alike * (random[0] - 0.5), kind: random[1], alike }
+    }
+}
+
+/// The greatest whole number that is not above another: `floor` is a call where processors of all kinds are compiled for.
+#[inline]
+fn below(number: f32) -> i32 {
+    let whole = number as i32;
+    whole - i32::from(number < whole as f32)
 }
 
 /// The density, 0 to 1, above which a square has a set.
@@ -241,7 +281,7 @@ impl Maps {
     /// The species that grows there: drawn by the shares of one of the cells, which is drawn by its weight. So the
     /// chance of each goes evenly from cell to cell.
     #[inline]
-    fn species(&self, corners: &Corners, bits: u64) -> usize {
+    fn species(&self, corners: &Corners, bits: u64, tussock: Tussock) -> usize {
         let Some((last, _)) = self.shares.split_last().filter(|(_, others)| !others.is_empty()) else {
             return 0;
         };
@@ -253,7 +293,7 @@ impl Maps {
         let grows = |cell: &usize| last.values()[*cell] > 0.0;
         let cell = [0, 1, 2, 3].map(|turn| corners.cells[drawn ^ turn]).into_iter().find(grows);
         let Some(cell) = cell else { return 0 };
-        let chosen = random(32);
+        let chosen = if random(48) < tussock.alike { tussock.kind } else { random(32) };
         self.shares.iter().position(|share| chosen < share.values()[cell]).unwrap_or(self.shares.len() - 1)
     }
 }

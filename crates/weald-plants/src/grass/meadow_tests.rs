@@ -23,6 +23,7 @@ fn meadow(density: impl FnMut(usize, usize) -> f32) -> Meadow {
         level: 4.0,
         mown_height: 0.05,
         deepest: 0.1,
+        tussocks: 0.0,
         maps: Maps {
             cell: 2.0,
             valid: None,
@@ -82,6 +83,48 @@ fn soil_light_and_species_are_those_of_the_place() {
     }
     let [west, east] = [reeds[0] / east[0], reeds[1] / east[1]];
     assert!((west - 0.25).abs() < 0.03 && (east - 0.75).abs() < 0.03, "{west} and {east} are reeds");
+}
+
+/// Of pairs of sets of reeds and ryegrass that are about so far apart, those of one species; and the mean difference of their soils.
+fn alike(sets: &[Instance], apart: std::ops::Range<f32>) -> [f64; 2] {
+    let mut sum = [0.0; 3];
+    for (number, one) in sets.iter().enumerate() {
+        for other in &sets[..number] {
+            let away = (one.place[0] - other.place[0]).hypot(one.place[1] - other.place[1]);
+            if apart.contains(&away) {
+                let is_alike = f64::from(u8::from(one.species == other.species));
+                let parts = [1.0, is_alike, f64::from((one.tuft.soil - other.tuft.soil).abs())];
+                (0..3).for_each(|part| sum[part] += parts[part]);
+            }
+        }
+    }
+    [sum[1] / sum[0], sum[2] / sum[0]]
+}
+
+#[test]
+fn sets_of_a_tussock_share_soil_and_species_and_all_together_have_those_of_the_maps() {
+    let even = Meadow { densest: 30.0, tussocks: 0.6, ..meadow(|_, _| 1.0) };
+    let maps =
+        Maps { soil: field(|_, _| 0.5), shares: vec![field(|_, _| 0.6), field(|_, _| 1.0)], ..even.maps };
+    let even = Meadow { maps, ..even };
+    let sets = |meadow: &Meadow| -> Vec<_> {
+        meadow.sets(&Area { low: [5.0; 2], high: [35.0; 2] }).into_iter().map(Instance::unpack).collect()
+    };
+    let all = sets(&even);
+    let mean = |value: &dyn Fn(&Instance) -> f32| {
+        all.iter().map(|set| f64::from(value(set))).sum::<f64>() / all.len() as f64
+    };
+    let (soil, reeds) = (mean(&|set| set.tuft.soil), mean(&|set| set.species as f32));
+    assert!((soil - 0.5).abs() < 0.01 && (reeds - 0.4).abs() < 0.04, "soil {soil}, {reeds} are reeds");
+    let some: Vec<_> = all.into_iter().step_by(4).collect();
+    let [near, far] = [0.0..0.3, 4.0..6.0].map(|apart| alike(&some, apart));
+    assert!(near[0] > far[0] + 0.04 && near[1] < 0.75 * far[1], "near each other {near:?}, apart {far:?}");
+    let alone: Vec<_> = sets(&Meadow { tussocks: 0.0, ..even }).into_iter().step_by(4).collect();
+    let [near, far] = [0.0..0.3, 4.0..6.0].map(|apart| alike(&alone, apart));
+    assert!(
+        (near[0] - far[0]).abs() < 0.04 && near[1] == 0.0,
+        "as the source has it {near:?}, apart {far:?}"
+    );
 }
 
 #[test]

@@ -1717,6 +1717,7 @@ class Steps:
         density: str = "moisture",
         sets: float = 40.0,
         species: Sequence[Mapping[str, Any]] = [],
+        tussocks: float = 0.6,
         water: float = 0.05,
         age: float = 1.0,
         mown: str | None = None,
@@ -1745,6 +1746,8 @@ class Steps:
             Sets (tufts of six blades) per square metre where the density is 1: 40 are 240 blades.
         species: list of tables; default []
             What grows: `[{ name = "reed", share = 2, where = [{ layer = "moisture", above = 0.9 }] }, …]`. Without any, ryegrass.
+        tussocks: number, 0 to 1; default 0.6
+            How much sets of a tussock, which is 0.7 m wide, share: of so many the species, and all of them soil that is by up to half of that better or worse than the layer's. With 0, as in the publication, each set stands alone.
         water: number, 0 to 10000 m; default 0.05
             Depth of the layer `water`, where there is one, up to which grass stands in it.
         age: number, 0 to 1; default 1.0
@@ -2535,6 +2538,7 @@ class AccessorSteps:
         density: str = "moisture",
         sets: float = 40.0,
         species: Sequence[Mapping[str, Any]] = [],
+        tussocks: float = 0.6,
         water: float = 0.05,
         age: float = 1.0,
         mown: str | None = None,

@@ -86,6 +86,7 @@ fn meadow(job: GalleryJob) -> Meadow {
         level: LEVELS as f32,
         mown_height: 0.05,
         deepest: 0.0,
+        tussocks: 0.0,
         maps: maps(),
     }
 }

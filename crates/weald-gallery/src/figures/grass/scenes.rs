@@ -102,6 +102,7 @@ fn mapped() -> Result<Landscape, Error> {
             level: LEVELS as f32,
             mown_height: 0.05,
             deepest: 0.0,
+            tussocks: 0.0,
             maps: Maps { cell: CELL, ..fields::maps() },
         },
     );

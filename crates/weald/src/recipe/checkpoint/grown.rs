@@ -19,6 +19,7 @@ pub(super) struct MeadowHeader {
     level: f32,
     mown_height: f32,
     deepest: f32,
+    tussocks: f32,
     columns: usize,
     rows: usize,
     cell: f64,
@@ -49,6 +50,7 @@ impl MeadowHeader {
             level: meadow.level,
             mown_height: meadow.mown_height,
             deepest: meadow.deepest,
+            tussocks: meadow.tussocks,
             columns: density.size().columns,
             rows: density.size().rows,
             cell: *cell,
@@ -80,6 +82,7 @@ impl MeadowHeader {
             level: self.level,
             mown_height: self.mown_height,
             deepest: self.deepest,
+            tussocks: self.tussocks,
             maps,
         };
         Ok((self.name, meadow))

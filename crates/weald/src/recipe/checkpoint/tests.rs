@@ -35,6 +35,7 @@ fn state() -> State {
             level: 1.0 / 3.0,
             mown_height: 0.04,
             deepest: 0.0,
+            tussocks: 0.3,
             maps: Maps {
                 cell: 0.3,
                 valid: landscape.domain.valid.clone(),
