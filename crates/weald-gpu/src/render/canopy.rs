@@ -1,4 +1,4 @@
-//! The grass of a landscape as a whole, for where its blades are not drawn: `canopy.wgsl`.
+//! The grass of a landscape as a whole, for where its blades are not drawn: `canopy.wgsl` and `lawn.wgsl`.
 
 use weald::grow::Vegetation;
 use weald::grow::grass::Canopy;

@@ -36,7 +36,7 @@ const SUN_GRAZES = 0.12;
 //
 //     ∫ exp(-L / 2v) exp(-L / 2s) dL / 2v = s / (s + v)
 //
-// This is the law of Seeliger 1887 ("Zur Photometrie des Saturnringes"), by which slopes that are seen flatly are about as bright
+// This is the law of Lommel and Seeliger (Seeliger 1887, "Zur Theorie der Beleuchtung der großen Planeten"), by which slopes that are seen flatly are about as bright
 // wherever they face.
 fn sunlit_leaves(normal: vec3<f32>, direction: vec3<f32>) -> f32 {
     let sun = max(dot(normal, scene.sun.xyz), SUN_GRAZES);

@@ -286,7 +286,8 @@ fn near_light(point: vec3<f32>, look: Look) -> vec4<f32> {
     let lawn = leaves_at(look.place);
     let at = seen_in_grass(point.xy, look.normal, ray_of(look), lawn);
     let skin = ground_skin_at(look.place, at, look.surface, look.footprint, look.above);
-    return skin_light(at, look, lawn, with_detail(skin, vec3<f32>(at, point.z), look.normal, look.footprint));
+    let height = point.z - dot(look.normal.xy, at - point.xy) / max(look.normal.z, 0.05);
+    return skin_light(at, look, lawn, with_detail(skin, vec3<f32>(at, height), look.normal, look.footprint));
 }
 
 // Water, and its share.

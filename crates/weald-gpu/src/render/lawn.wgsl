@@ -1,8 +1,9 @@
-// Grass where its blades are too far away to be drawn: tussocks as they are seen aslant, and the light of their leaves.
+// Grass where its blades are too far away to be drawn: tussocks as they are seen aslant, and the light of their leaves. These tussocks are
+// looks alone, and none of those that sets of blades share (`meadow.rs`).
 
 // Light of the sun that leaves which it reaches send towards an eye which has it behind its back, and beside or before itself, as a
 // share of what they would face to face; and of the sky, of which leaves that stand see half, and each other.
-const OF_THE_SUN = vec2<f32>(0.62, 0.42);
+const OF_THE_SUN = vec2<f32>(0.68, 0.42);
 const OF_THE_SKY = 0.62;
 
 // Tussocks: metres from one to the next where they are smallest, how many times as far it is to the next larger ones, how many layers of
@@ -11,7 +12,7 @@ const TUSSOCKS = 0.42;
 const TUSSOCKS_COARSER = 2.7;
 const TUSSOCK_LAYERS = 4u;
 const TUSSOCKS_LEFT = 0.5;
-const TUSSOCK_SEED = 0x5bu;
+const TUSSOCK_SEED = 0x81u;
 
 // How high they are beside their spacing, at most so many metres; the share of their places that is taken, with how broad they are; and the
 // spacing at which those of a layer are told from each other, beside that of noise.
@@ -20,8 +21,9 @@ const TUSSOCK_MOST_RISE = 0.4;
 const TUSSOCKS_STAND = vec2<f32>(0.9, 1.5);
 const TUSSOCKS_TOLD = 1.2;
 
-// Leaf area below which there is no grass to speak of, and the mean height of tussocks beside that of the highest.
+// Leaf areas below which there is no grass to speak of, and from which on it stands in tussocks; the mean height of tussocks beside that of the highest.
 const NO_LEAVES = 1e-4;
+const THIN_LEAVES = 0.1;
 const TUSSOCK_MEAN = 0.28;
 
 // Steps in which a line of sight comes down to them, height of an eye above the ground as a share of its distance, from which they are
@@ -70,16 +72,16 @@ fn highest_tussock(footprint: f32) -> f32 {
 
 // Tussocks at a place, of all layers that are seen.
 struct Tussock {
-    // Metres above the ground, and over the mean as a share of the highest.
+    // Metres above the ground.
     height: f32,
+    // Sums over layers, about 0 in the mean: of heights as shares of the highest of their layer, and of numbers that tussocks have by chance.
     tone: f32,
-    slope: vec2<f32>,
-    // A number from -0.5 to 0.5.
     chance: f32,
+    slope: vec2<f32>,
 }
 
 fn tussocks_at(point: vec2<f32>, footprint: f32) -> Tussock {
-    var sum = Tussock(0.0, 0.0, vec2<f32>(0.0), 0.0);
+    var sum = Tussock(0.0, 0.0, 0.0, vec2<f32>(0.0));
     var place = turned_lattice(point);
     var turn = turned_lattice(vec2<f32>(1.0, 0.0));
     var finer = 0.0;
@@ -93,7 +95,8 @@ fn tussocks_at(point: vec2<f32>, footprint: f32) -> Tussock {
             sum.height += seen * min(TUSSOCK_RISE * spacing, TUSSOCK_MOST_RISE) * here.height;
             sum.tone += seen * (here.height - TUSSOCK_MEAN);
             sum.slope += seen * slope;
-            sum.chance += seen * (here.chance - 0.5);
+            // It fades where a tussock ends, and is none between them.
+            sum.chance += seen * min(5.0 * here.height, 1.0) * (here.chance - 0.5);
             finer = min(finer + seen, 1.0);
         }
         spacing *= TUSSOCKS_COARSER;
@@ -107,19 +110,19 @@ fn tussocks_at(point: vec2<f32>, footprint: f32) -> Tussock {
     return sum;
 }
 
-// How much of tussocks is shown from so far away.
-fn shown_of_tussocks(view: ViewRay) -> f32 {
-    return ramp(view.ray_length, TUSSOCKS_FROM.x, TUSSOCKS_FROM.y);
+// How much of tussocks is shown from so far away, where so many leaves stand.
+fn shown_of_tussocks(view: ViewRay, leaf_area: f32) -> f32 {
+    return ramp(view.ray_length, TUSSOCKS_FROM.x, TUSSOCKS_FROM.y) * ramp(leaf_area, NO_LEAVES, THIN_LEAVES);
 }
 
 // The point of the ground, as a point to look at from straight above, where a line of sight to a point meets tussocks: relief
 // mapping, as of the crowns of woods (`crown_relief.wgsl`).
-fn seen_tussock(point: vec2<f32>, normal: vec3<f32>, view: ViewRay) -> vec2<f32> {
-    let shown = shown_of_tussocks(view);
+fn seen_tussock(point: vec2<f32>, normal: vec3<f32>, view: ViewRay, shown: f32) -> vec2<f32> {
     let highest = shown * highest_tussock(view.footprint);
     // How far the line goes aside for each metre that it comes nearer to the ground.
+    // Blades are as high however much heights are exaggerated.
     let rising = max(-dot(view.direction, normal) / max(normal.z, 0.2), LOWEST_SIGHT_OF_GRASS);
-    let aslant = -view.direction.xy * (scene.scale.y / rising);
+    let aslant = -view.direction.xy / rising;
     var found = 0.0;
     var above = vec2<f32>(highest, 0.0);
     var step = 0u;
@@ -141,16 +144,14 @@ fn seen_tussock(point: vec2<f32>, normal: vec3<f32>, view: ViewRay) -> vec2<f32>
 fn seen_in_grass(point: vec2<f32>, normal: vec3<f32>, view: ViewRay, lawn: vec4<f32>) -> vec2<f32> {
     var seen = point;
     if LAWN && lawn.w > NO_LEAVES {
-        seen = seen_tussock(point, normal, view);
+        seen = seen_tussock(point, normal, view, shown_of_tussocks(view, lawn.w));
     }
     return seen;
 }
 
 // Of the sun on leaves that it reaches what they send towards an eye.
 fn sun_on_leaves(direction: vec3<f32>) -> f32 {
-    let runs = dot(direction.xy, direction.xy) * dot(scene.sun.xy, scene.sun.xy);
-    let away_from_sun = -dot(direction.xy, scene.sun.xy) * inverseSqrt(max(runs, 1e-9));
-    return mix(OF_THE_SUN.y, OF_THE_SUN.x, max(away_from_sun, 0.0));
+    return mix(OF_THE_SUN.y, OF_THE_SUN.x, max(-dot(direction.xy, scene.sun.xy), 0.0));
 }
 
 // Grass that is seen as a whole, at a point to look at from straight above: what its tone adds, how dry it is, and the slope of its tussocks,
@@ -183,8 +184,8 @@ fn with_canopy(soil: SoilLight, lawn: vec4<f32>, at: vec2<f32>, normal: vec3<f32
     let cosine = abs(dot(view.direction, normal));
     let undrawn = lawn.w * (1.0 - drawn_as_blades(view.ray_length));
     let bare = through_leaves(undrawn, cosine);
-    let sward = sward_at(at, cosine, view.footprint, shown_of_tussocks(view));
-    // What is seen between tussocks lies in their shade.
+    let sward = sward_at(at, cosine, view.footprint, shown_of_tussocks(view, lawn.w));
+    // What is seen between leaves is as light and dark as they are.
     let shade = max(1.0 + sward.tone * (1.0 - sky_through_leaves(lawn.w)), 0.3);
     let below = shade * (soil.in_sun * through_leaves(lawn.w, scene.sun.z) + soil.under_sky * sky_through_leaves(lawn.w));
     return mix(canopy_radiance(lawn.xyz, sward, normal, view.direction, seen, sun), below, bare);

@@ -29,11 +29,11 @@ use crate::gpu::context::Context;
 const SHADERS: [&str; 15] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
-    include_str!("detail.wgsl"),
-    include_str!("water.wgsl"),
     include_str!("thinning.wgsl"),
     include_str!("canopy.wgsl"),
     include_str!("lawn.wgsl"),
+    include_str!("detail.wgsl"),
+    include_str!("water.wgsl"),
     include_str!("patch_heights.wgsl"),
     include_str!("terrain.wgsl"),
     include_str!("ground.wgsl"),

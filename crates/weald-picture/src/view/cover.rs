@@ -155,10 +155,11 @@ impl Cover {
             albedo: self.palette.snow,
             bump: texture.rough(0.08, ramp(spot.slope, 0.2, 0.8)),
         };
-        let white = self.snow(spot, texture, trees);
+        let wooded = self.off_cliffs(spot, texture) * trees;
+        let white = self.snow(spot, texture, wooded);
         let mut open = ground.mixed(&snow, white);
         open.bump = no_steeper(open.bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * bare * (1.0 - white));
-        let density = trees * self.off_cliffs(spot, texture) * (1.0 - white) * (1.0 - sand) * (1.0 - washed);
+        let density = wooded * (1.0 - white) * (1.0 - sand) * (1.0 - washed);
         let conifers = self.share_of_conifers(spot.point[2]);
         if density > 0.0 { self.under_trees(spot, &open, [density, conifers]) } else { open }
     }

@@ -177,11 +177,11 @@ fn share_of_conifers(height: f32) -> f32 {
 fn wood_at(spot: SurfacePoint) -> vec2<f32> {
     let texture = texture_of(spot);
     let here = smooth_at(site, spot.place);
-    let wooded = trees(spot, here.x, patchy_of(texture));
     let bare = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
+    let wooded = trees(spot, here.x, patchy_of(texture)) * (1.0 - bare);
     let strand = beach_at(spot, texture);
     let dry = (1.0 - strand.x) * (1.0 - strand.y);
-    let density = wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x, wooded)) * dry;
+    let density = wooded * (1.0 - snow_at(spot, texture, here.x, wooded)) * dry;
     return vec2<f32>(density, share_of_conifers(spot.point.z));
 }
 
@@ -235,11 +235,12 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let green = GREEN * blocks.ledge * (1.0 - ramp(high, GREEN_UP_TO.x, GREEN_UP_TO.y));
     let ground = mixed(stony, mixed(rock(spot, texture, blocks), meadow, green), bare);
     let snow = SurfaceSample(scene.snow.xyz, rough(texture, 0.08, ramp(spot.slope, 0.2, 0.8)), vec4<f32>(0.0, 0.0, 0.0, 1.0));
-    let white = snow_at(spot, texture, moisture, wooded);
+    let cliff = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
+    let standing = wooded * (1.0 - cliff);
+    let white = snow_at(spot, texture, moisture, standing);
     var open = mixed(ground, snow, white);
     open.bump = no_steeper(open.bump, mix(STEEPEST, STEEPEST_ROCK, bare * (1.0 - white)));
-    let cliff = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
-    let density = wooded * (1.0 - cliff) * (1.0 - white) * (1.0 - strand.x) * (1.0 - strand.y);
+    let density = standing * (1.0 - white) * (1.0 - strand.x) * (1.0 - strand.y);
     return under_trees(spot, open, density, share_of_conifers(spot.point.z));
 }
 

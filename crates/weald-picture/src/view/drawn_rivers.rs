@@ -13,7 +13,7 @@ use weald_core::landscape::Landscape;
 const RIVER_PIXELS: usize = 4;
 const RIVER_SIDE: usize = 4096;
 
-/// Pixels of the map within which a thinner river's water is shared out.
+/// Pixels of the map than which no river is drawn thinner.
 const THINNEST: f32 = 2.0;
 
 /// Widths over that between which rivers come into sight.
@@ -206,5 +206,9 @@ mod tests {
             shares.windows(length).filter(falls).count()
         });
         assert_eq!(dips, [0; 2], "{shares:?}");
+        // Nor does it by narrows and pools, which are some cells long.
+        let [least, most] =
+            shares.iter().fold([f32::MAX, 0.0_f32], |[a, b], &share| [a.min(share), b.max(share)]);
+        assert!(most < 2.0 * least, "{least} to {most}");
     }
 }

@@ -14,11 +14,8 @@ const SCALE: f32 = 0.16;
 const SUN: f32 = 0.8;
 const WIND: f32 = 0.35;
 
-/// Densities of woods between which patches of snow and what hollows hold become less, down to nothing.
+/// Densities of woods between which patches, hollows and shady slopes come to count for nothing.
 const WOODS: [f32; 2] = [0.1, 0.6];
-
-/// What crowns hide of it.
-const HIDDEN: f32 = 0.8;
 
 /// What snow lies on.
 #[derive(Clone, Copy, Debug)]
@@ -41,13 +38,13 @@ pub(super) struct SnowSpot {
 /// Share of the ground that snow hides.
 pub(super) fn snow_share(spot: &SnowSpot) -> f32 {
     let [broad, fine, gully] = spot.noise;
-    // What drifts into hollows and slides down gullies lies in the open: below trees snow lies evenly.
+    // What drifts into hollows, slides down gullies or stays on shady slopes does so in the open.
     let open = 1.0 - ramp(spot.wooded, WOODS[0], WOODS[1]);
     let sloping = ramp(spot.slope, 0.1, 0.6);
     let aspect = sloping * (SUN * spot.fall[1] + WIND * spot.fall[0]);
     // It slides off what is a third steeper than bare rock.
     let hold = (1.3 - spot.steepness).min(0.6);
-    let score = spot.above / SCALE + aspect + 1.6 * hold + 1.3 * open * spot.hollow - HIDDEN * (1.0 - open);
+    let score = spot.above / SCALE + aspect.min(open * aspect) + 1.6 * hold + 1.3 * open * spot.hollow;
     let whole = ramp(score, -0.2, 2.0);
     let patches = 4.0 * open * whole * (1.0 - whole) * (0.6 * broad + 0.4 * fine + 1.4 * gully);
     let dusting = 0.25 * open * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
@@ -107,6 +104,6 @@ mod tests {
         let below: Vec<_> = below.filter(|&above| gully(above, 0.0) > 0.5).collect();
         assert!(below.len() > 5, "in the open a gully has some: {}", below.len());
         assert!(below.iter().all(|&above| gully(above, 1.0) == 0.0));
-        assert!(gully(0.35, 1.0) > 0.95, "high up all is white");
+        assert!(gully(0.3, 1.0) > 0.95, "high up all is white");
     }
 }

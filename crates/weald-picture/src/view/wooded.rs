@@ -38,11 +38,8 @@ impl Cover {
         let texture = Texture::at(spot, self.limits.cell);
         let trees = self.trees(spot, self.sites.moisture(spot.place), texture.patchy());
         let [sand, washed] = Self::beach(spot, &texture);
-        let density = trees
-            * self.off_cliffs(spot, &texture)
-            * (1.0 - self.snow(spot, &texture, trees))
-            * (1.0 - sand)
-            * (1.0 - washed);
+        let wooded = trees * self.off_cliffs(spot, &texture);
+        let density = wooded * (1.0 - self.snow(spot, &texture, wooded)) * (1.0 - sand) * (1.0 - washed);
         [density, self.share_of_conifers(spot.point[2])]
     }
 

@@ -114,7 +114,7 @@ mod tests {
             level: LEVELS as f32,
             mown_height: 0.05,
             deepest: 0.0,
-            tussocks: 0.0,
+            tussocks: 0.6,
             maps: Maps { cell: 2.0, valid, density, soil, light, shares, water, mown, trodden },
         }
     }

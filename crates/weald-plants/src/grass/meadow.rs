@@ -36,7 +36,7 @@ pub struct Meadow {
     pub mown_height: f32,
     /// Depth of water in metres up to which grass stands.
     pub deepest: f32,
-    /// Of the sets of a tussock the share that is of one species, and how much worse the worst of their soils is than the best: 0 to 1.
+    /// Of the sets of a tussock the share that is of one species, and how much worse the worst soil of tussocks is than the best: 0 to 1.
     pub tussocks: f32,
     /// What the ground says.
     pub maps: Maps,
@@ -179,7 +179,7 @@ impl<'a> Row<'a> {
         let tussock = Tussock::of(meadow, place, bits);
         let species = maps.species(&corners, bits, tussock);
         let tuft = Set {
-            soil: (corners.value(&maps.soil) + tussock.better).clamp(0.0, 1.0),
+            soil: tussock.soil(corners.value(&maps.soil)),
             light: corners.value(&maps.light),
             level: meadow.level,
             cut: meadow.cut(species, share(&maps.mown)),
@@ -193,7 +193,7 @@ impl<'a> Row<'a> {
 /// What the sets of a tussock share.
 #[derive(Clone, Copy)]
 struct Tussock {
-    /// How much better its soil is than that of the map.
+    /// How much better its soil is than that of the map, where that is neither the best nor the worst.
     better: f32,
     /// The random number by which its species is chosen, and the share of its sets that are of it.
     kind: f32,
@@ -209,10 +209,17 @@ impl Tussock {
         // Of the bits of a set those that nothing else is drawn by.
         let random = [32, 40].map(|shift| f32::from((bits >> shift) as u8) * (1.0 / 256.0));
         let [u, v] = [0, 1].map(|axis| below(turned[axis] + random[axis]) as u32);
-        let own = splitmix64(!meadow.seed ^ (u64::from(u) << 32 | u64::from(v)));
+        let own = splitmix64(splitmix64(!meadow.seed) ^ (u64::from(u) << 32 | u64::from(v)));
         let random = [own as u16, (own >> 16) as u16].map(|bits| f32::from(bits) * (1.0 / 65536.0));
         let alike = meadow.tussocks;
         Self { better: alike * (random[0] - 0.5), kind: random[1], alike }
+    }
+
+    /// Its soil where the map has such a one: in the mean that of the map, and between 0 and 1.
+    #[inline]
+    fn soil(self, of_the_map: f32) -> f32 {
+        let room = of_the_map.min(1.0 - of_the_map);
+        of_the_map + self.better * (2.0 * room).clamp(0.0, 1.0)
     }
 }
 
