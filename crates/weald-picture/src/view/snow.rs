@@ -103,7 +103,7 @@ mod tests {
             .filter(|&above| snow_share(&SnowSpot { above, ..spot() }) < 0.3);
         let below: Vec<_> = below.filter(|&above| gully(above, 0.0) > 0.5).collect();
         assert!(below.len() > 5, "in the open a gully has some: {}", below.len());
-        assert!(below.iter().all(|&above| gully(above, 1.0) == 0.0));
+        assert!(below.iter().all(|&above| gully(above, 1.0) < 0.3));
         assert!(gully(0.3, 1.0) > 0.95, "high up all is white");
     }
 }
