@@ -182,6 +182,8 @@ struct Look {
     ray_length: f32,
     footprint: f32,
     surface: vec3<f32>,
+    // Height and rise of the ground of that place.
+    own: vec3<f32>,
     // Height above the water, and below it in negative numbers.
     above: f32,
     normal: vec3<f32>,
@@ -197,6 +199,7 @@ fn look_at_ground(point: vec3<f32>) -> Look {
     var look: Look;
     look.place = place_of(point);
     look.surface = spline_with_slope(bed, look.place);
+    look.own = look.surface;
     look.above = -lake_depth(look.place, look.surface.x);
     look.wet = wet_share(look.place, look.surface.x);
     look.running = smooth_at(flow, look.place).xyz;
@@ -210,6 +213,7 @@ fn look_beyond(point: vec3<f32>) -> Look {
     var look: Look;
     look.place = beyond.place;
     look.surface = beyond.surface;
+    look.own = beyond.own;
     look.above = beyond.surface.x - level_beyond(place, beyond);
     look.wet = wet_share_beyond(place, beyond);
     look.tilt = vec3<f32>(0.0, 0.0, 1.0);
@@ -260,34 +264,41 @@ fn ray_of(look: Look) -> ViewRay {
     return ViewRay(look.direction, look.ray_length, look.footprint);
 }
 
-// The light of dry ground of such a skin, which is that of a point to look at from straight above.
-fn skin_light(at: vec2<f32>, look: Look, lawn: vec4<f32>, skin: SurfaceSample) -> vec4<f32> {
+fn grass_at(point: vec3<f32>, look: Look) -> GrassSeen {
+    return grass_seen(point.xy, look.place, look.normal, ray_of(look));
+}
+
+// The light of dry ground of such a skin, and of the grass on it.
+fn skin_light(grass: GrassSeen, look: Look, skin: SurfaceSample) -> vec4<f32> {
     // Grass is rounder than what it grows on.
-    let normal = roughened(look.normal, skin.bump * through_leaves(lawn.w, 0.3));
+    let normal = roughened(look.normal, skin.bump * through_leaves(grass.lawn.w, 0.3));
     let seen = seen_at(skylight, share_of(look.place));
     let in_sun = skin.albedo * sunlight_on_facet(look.normal, normal, look.sun) / PI;
     let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
     var radiance = in_sun + under_sky;
-    if LAWN && lawn.w > NO_LEAVES {
-        radiance = with_canopy(SoilLight(in_sun, under_sky), lawn, at, look.normal, ray_of(look), seen, look.sun);
+    if LAWN && grass.lawn.w > NO_LEAVES {
+        radiance = with_canopy(SoilLight(in_sun, under_sky), grass, look.normal, ray_of(look), seen, look.sun);
     }
     return vec4<f32>(seen_through_air(radiance, look), GROUND_LIGHT);
 }
 
+// The skin of dry ground between grass, from afar.
+fn skin_in_grass(grass: GrassSeen, look: Look) -> SurfaceSample {
+    return ground_skin_at(look.place, grass.at, GroundHeights(look.surface, look.own), look.footprint, look.above);
+}
+
 // Dry ground from afar.
 fn far_light(point: vec3<f32>, look: Look) -> vec4<f32> {
-    let lawn = leaves_at(look.place);
-    let at = seen_in_grass(point.xy, look.normal, ray_of(look), lawn);
-    return skin_light(at, look, lawn, ground_skin_at(look.place, at, look.surface, look.footprint, look.above));
+    let grass = grass_at(point, look);
+    return skin_light(grass, look, skin_in_grass(grass, look));
 }
 
 // Dry ground from close by.
 fn near_light(point: vec3<f32>, look: Look) -> vec4<f32> {
-    let lawn = leaves_at(look.place);
-    let at = seen_in_grass(point.xy, look.normal, ray_of(look), lawn);
-    let skin = ground_skin_at(look.place, at, look.surface, look.footprint, look.above);
-    let height = point.z - dot(look.normal.xy, at - point.xy) / max(look.normal.z, 0.05);
-    return skin_light(at, look, lawn, with_detail(skin, vec3<f32>(at, height), look.normal, look.footprint));
+    let grass = grass_at(point, look);
+    let height = point.z - dot(look.normal.xy, grass.at - point.xy) / max(look.normal.z, 0.05);
+    let skin = with_detail(skin_in_grass(grass, look), vec3<f32>(grass.at, height), look.normal, look.footprint);
+    return skin_light(grass, look, skin);
 }
 
 // Water, and its share.

@@ -10,7 +10,7 @@ const OF_THE_SKY = 0.62;
 // them there are, and what is left of a layer where the finer one is seen as well.
 const TUSSOCKS = 0.42;
 const TUSSOCKS_COARSER = 2.7;
-const TUSSOCK_LAYERS = 4u;
+const TUSSOCK_LAYERS = 3u;
 const TUSSOCKS_LEFT = 0.5;
 const TUSSOCK_SEED = 0x81u;
 
@@ -28,13 +28,13 @@ const TUSSOCK_MEAN = 0.28;
 
 // Steps in which a line of sight comes down to them, height of an eye above the ground as a share of its distance, from which they are
 // seen from no lower, and metres from the eye between which they come to stand: nearer by it is blades that do.
-const TUSSOCK_STEPS = 8u;
+const TUSSOCK_STEPS = 6u;
 const LOWEST_SIGHT_OF_GRASS = 0.1;
 const TUSSOCKS_FROM = vec2<f32>(8.0, 24.0);
 
 // What height and chance add to the tone of a tussock, chance to its dryness, and how steep its sides are.
-const TUSSOCK_TONE = vec2<f32>(0.7, 0.4);
-const TUSSOCK_DRY = 0.7;
+const TUSSOCK_TONE = vec2<f32>(0.5, 0.3);
+const TUSSOCK_DRY = 0.5;
 const TUSSOCK_STEEP = 0.12;
 
 // Patches of a meadow: their longest wavelength in metres, and what they add to its tone and its dryness.
@@ -56,6 +56,11 @@ fn seen_of_tussocks(spacing: f32, finer: f32, footprint: f32) -> f32 {
     return grain_visible(footprint, TUSSOCKS_TOLD * spacing) * (1.0 - (1.0 - TUSSOCKS_LEFT) * finer);
 }
 
+// Metres that tussocks so far apart are high at most.
+fn rise_of_tussocks(spacing: f32) -> f32 {
+    return min(TUSSOCK_RISE * spacing, TUSSOCK_MOST_RISE);
+}
+
 // Metres that no tussock is higher than.
 fn highest_tussock(footprint: f32) -> f32 {
     var sum = 0.0;
@@ -63,7 +68,7 @@ fn highest_tussock(footprint: f32) -> f32 {
     var spacing = TUSSOCKS;
     for (var layer = 0u; layer < TUSSOCK_LAYERS; layer++) {
         let seen = seen_of_tussocks(spacing, finer, footprint);
-        sum += seen * min(TUSSOCK_RISE * spacing, TUSSOCK_MOST_RISE);
+        sum += seen * rise_of_tussocks(spacing);
         finer = min(finer + seen, 1.0);
         spacing *= TUSSOCKS_COARSER;
     }
@@ -92,7 +97,7 @@ fn tussocks_at(point: vec2<f32>, footprint: f32) -> Tussock {
         if seen > 0.0 {
             let here = dome(place / spacing, TUSSOCK_SEED + layer, TUSSOCKS_STAND.x, TUSSOCKS_STAND.y);
             let slope = vec2<f32>(dot(turn, here.slope), turn.x * here.slope.y - turn.y * here.slope.x);
-            sum.height += seen * min(TUSSOCK_RISE * spacing, TUSSOCK_MOST_RISE) * here.height;
+            sum.height += seen * rise_of_tussocks(spacing) * here.height;
             sum.tone += seen * (here.height - TUSSOCK_MEAN);
             sum.slope += seen * slope;
             // It fades where a tussock ends, and is none between them.
@@ -110,9 +115,10 @@ fn tussocks_at(point: vec2<f32>, footprint: f32) -> Tussock {
     return sum;
 }
 
-// How much of tussocks is shown from so far away, where so many leaves stand.
+// How much of tussocks is shown from so far away, where so many leaves stand: none where all of these are drawn as blades.
 fn shown_of_tussocks(view: ViewRay, leaf_area: f32) -> f32 {
-    return ramp(view.ray_length, TUSSOCKS_FROM.x, TUSSOCKS_FROM.y) * ramp(leaf_area, NO_LEAVES, THIN_LEAVES);
+    let undrawn = 1.0 - drawn_as_blades(view.ray_length);
+    return undrawn * ramp(view.ray_length, TUSSOCKS_FROM.x, TUSSOCKS_FROM.y) * ramp(leaf_area, NO_LEAVES, THIN_LEAVES);
 }
 
 // The point of the ground, as a point to look at from straight above, where a line of sight to a point meets tussocks: relief
@@ -130,7 +136,7 @@ fn seen_tussock(point: vec2<f32>, normal: vec3<f32>, view: ViewRay, shown: f32) 
         let up = highest * (1.0 - f32(step) / f32(TUSSOCK_STEPS));
         let left = up - shown * tussocks_at(point + up * aslant, view.footprint).height;
         let is_met = step > 0u && left <= 0.0;
-        found = select(found, above.x + above.y / max(above.y - left, 1e-6) * (up - above.x), is_met);
+        found = select(found, crossed_at(above, vec2<f32>(up, left)), is_met);
         above = vec2<f32>(up, left);
         step++;
         if is_met || step > TUSSOCK_STEPS {
@@ -140,13 +146,21 @@ fn seen_tussock(point: vec2<f32>, normal: vec3<f32>, view: ViewRay, shown: f32) 
     return point + found * aslant;
 }
 
-// The same where grass stands, and the point itself elsewhere.
-fn seen_in_grass(point: vec2<f32>, normal: vec3<f32>, view: ViewRay, lawn: vec4<f32>) -> vec2<f32> {
-    var seen = point;
-    if LAWN && lawn.w > NO_LEAVES {
-        seen = seen_tussock(point, normal, view, shown_of_tussocks(view, lawn.w));
+// The grass at a point: its leaves, how much of its tussocks is shown, and the point to look at from straight above, which where no
+// grass stands is the point itself.
+struct GrassSeen {
+    lawn: vec4<f32>,
+    shown: f32,
+    at: vec2<f32>,
+}
+
+fn grass_seen(point: vec2<f32>, place: vec2<f32>, normal: vec3<f32>, view: ViewRay) -> GrassSeen {
+    var grass = GrassSeen(leaves_at(place), 0.0, point);
+    if LAWN && grass.lawn.w > NO_LEAVES {
+        grass.shown = shown_of_tussocks(view, grass.lawn.w);
+        grass.at = seen_tussock(point, normal, view, grass.shown);
     }
-    return seen;
+    return grass;
 }
 
 // Of the sun on leaves that it reaches what they send towards an eye.
@@ -180,11 +194,12 @@ fn canopy_radiance(colour: vec3<f32>, sward: Sward, normal: vec3<f32>, direction
 }
 
 // The light of soil with grass on it, of which the light of the soil alone is known as from the sun and from the sky.
-fn with_canopy(soil: SoilLight, lawn: vec4<f32>, at: vec2<f32>, normal: vec3<f32>, view: ViewRay, seen: Seen, sun: f32) -> vec3<f32> {
+fn with_canopy(soil: SoilLight, grass: GrassSeen, normal: vec3<f32>, view: ViewRay, seen: Seen, sun: f32) -> vec3<f32> {
+    let lawn = grass.lawn;
     let cosine = abs(dot(view.direction, normal));
     let undrawn = lawn.w * (1.0 - drawn_as_blades(view.ray_length));
     let bare = through_leaves(undrawn, cosine);
-    let sward = sward_at(at, cosine, view.footprint, shown_of_tussocks(view, lawn.w));
+    let sward = sward_at(grass.at, cosine, view.footprint, grass.shown);
     // What is seen between leaves is as light and dark as they are.
     let shade = max(1.0 + sward.tone * (1.0 - sky_through_leaves(lawn.w)), 0.3);
     let below = shade * (soil.in_sun * through_leaves(lawn.w, scene.sun.z) + soil.under_sky * sky_through_leaves(lawn.w));

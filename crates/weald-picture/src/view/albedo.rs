@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cover::Cover;
-use super::ground_kinds::{SurfacePoint, UPRIGHT};
+use super::ground_kinds::{SurfacePoint, UPRIGHT, bed_of};
 use super::keys::View;
 use super::setting::{GroundOf, Setting};
 use crate::Image;
@@ -74,6 +74,7 @@ impl TopView {
             sight: UPRIGHT,
             above: above / self.setting.exaggeration,
             beach: 0.0,
+            bed: bed_of([height, rise[0], rise[1]], 1.0),
         }
     }
 }

@@ -130,8 +130,8 @@ impl RayMarcher {
         let depth = level.map_or(f32::NEG_INFINITY, |level| level - beyond.surface[0]);
         let like = Hit { place: beyond.place, ..*hit };
         let footprint = self.footprint(hit.ray_length);
-        let (surface, direction) = (beyond.surface, ray.direction);
-        let spot = GroundSpot { place: beyond.place, surface, point, footprint, direction };
+        let (surface, own, direction) = (beyond.surface, beyond.own, ray.direction);
+        let spot = GroundSpot { place: beyond.place, surface, own, point, footprint, direction };
         if depth > 0.0 {
             return self.shore(ray, &like, &spot, depth);
         }

@@ -99,6 +99,7 @@ struct SurfacePoint {
     footprint: f32,
     above: f32,
     beach: f32,
+    bed: vec3<f32>,
 }
 
 // With the shares of wood, scree, rock and snow, which have detail of their own from close by.

@@ -14,7 +14,6 @@ const STEPS: u32 = 4;
 
 /// Where a line of sight to a point of the ground meets the crowns of a wood of a density, for a pixel of that footprint, as a
 /// point to look at from straight above: `aslant` is how far the line goes aside a metre. Crowns before others hide them.
-/// Between the last two steps that is where it would cross were both straight.
 pub(super) fn seen_crown(point: [f32; 2], [density, footprint]: [f32; 2], aslant: [f32; 2]) -> [f32; 2] {
     let top = if density > 0.0 { highest(footprint) } else { 0.0 };
     let at = |up: f32| [0, 1].map(|axis| point[axis] + up * aslant[axis]);
@@ -23,12 +22,17 @@ pub(super) fn seen_crown(point: [f32; 2], [density, footprint]: [f32; 2], aslant
         let up = top * (1.0 - step as f32 / STEPS as f32);
         let left = up - crown_height(at(up), density, footprint);
         if left <= 0.0 {
-            let share = above[1] / (above[1] - left).max(1e-6);
-            return at(above[0] + share * (up - above[0]));
+            return at(crossed_at(above, [up, left]));
         }
         above = [up, left];
     }
     point
+}
+
+/// At which height a line of sight crosses what stands on the ground, between a step at which it was so high and so far above that, and
+/// one at which it is below: where it would were both straight.
+fn crossed_at(before: [f32; 2], now: [f32; 2]) -> f32 {
+    before[0] + before[1] / (before[1] - now[1]).max(1e-6) * (now[0] - before[0])
 }
 
 /// Share of each layer in the relief of a wood: of the finest that is seen, and of the next where that one fades.

@@ -58,6 +58,12 @@ fn crown_height(point: vec2<f32>, density: f32, footprint: f32) -> f32 {
     return sum;
 }
 
+// At which height a line of sight crosses what stands on the ground, between a step at which it was so high and so far above that, and one
+// at which it is below: where it would were both straight.
+fn crossed_at(before: vec2<f32>, now: vec2<f32>) -> f32 {
+    return before.x + before.y / max(before.y - now.y, 1e-6) * (now.x - before.x);
+}
+
 // Where a line of sight to a point of the ground meets the crowns of a wood, as a point to look at from straight above: relief
 // mapping (Policarpo, Oliveira and Comba 2005).
 fn seen_crown(point: vec2<f32>, density: f32, footprint: f32, aslant: vec2<f32>) -> vec2<f32> {
@@ -69,7 +75,7 @@ fn seen_crown(point: vec2<f32>, density: f32, footprint: f32, aslant: vec2<f32>)
         let up = top * (1.0 - f32(step) / f32(WOOD_STEPS));
         let left = up - crown_height(point + up * aslant, density, footprint);
         let is_met = step > 0u && left <= 0.0;
-        found = select(found, above.x + above.y / max(above.y - left, 1e-6) * (up - above.x), is_met);
+        found = select(found, crossed_at(above, vec2<f32>(up, left)), is_met);
         above = vec2<f32>(up, left);
         step++;
         // Where there is no wood nothing is looked for.

@@ -27,6 +27,9 @@ pub(super) struct SurfacePoint {
     pub(super) above: f32,
     /// Height above it up to which waves throw sand and stones.
     pub(super) beach: f32,
+    /// Of the ground of the place that it is like: its height in metres, and to where it rises eastward and southward, of length 1
+    /// but on flat ground.
+    pub(super) bed: [f32; 3],
 }
 
 impl SurfacePoint {
@@ -34,6 +37,12 @@ impl SurfacePoint {
     pub(super) fn rise(&self) -> [f32; 2] {
         self.fall.map(|towards| -self.slope * towards)
     }
+}
+
+/// The beds of ground of such a height and rise by the cell, with heights so many times exaggerated, as a [`SurfacePoint`] has them.
+pub(super) fn bed_of([height, east, south]: [f32; 3], exaggeration: f32) -> [f32; 3] {
+    let rise = (east * east + south * south).sqrt().max(1e-6);
+    [height / exaggeration, east / rise, south / rise]
 }
 
 /// What light falls on.

@@ -97,7 +97,14 @@ impl RayMarcher {
         let footprint =
             (0.25 * terrain.cell()).max(self.footprint(hit.ray_length)).max(DRAWN_OUT * hit.ray_length);
         let surface = self.setting.bed.with_slope(hit.place);
-        let spot = GroundSpot { place: hit.place, surface, point, footprint, direction: ray.direction };
+        let spot = GroundSpot {
+            place: hit.place,
+            surface,
+            own: surface,
+            point,
+            footprint,
+            direction: ray.direction,
+        };
         let ground = self.ground(&spot, 1e9);
         self.haze.veil(ground, ray, hit.ray_length, &self.sky)
     }

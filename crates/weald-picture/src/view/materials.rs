@@ -128,9 +128,10 @@ impl Cover {
             return albedo;
         }
         let cells = UPHILL * self.sites.fineness;
-        let there = [spot.place[0] - cells * spot.fall[0], spot.place[1] + cells * spot.fall[1]];
+        let [height, east, south] = spot.bed;
+        let there = [spot.place[0] + cells * east, spot.place[1] + cells * south];
         let soft = SOFT.max(0.5 * spot.footprint * spot.slope.min(1.0));
-        let height = spot.point[2] + ragged;
+        let height = height + ragged;
         let (face, top) = self.strata.material(there, height, soft);
         // What stands higher than the ground uphill of it is a crest, of which that does not tell.
         mix(albedo, face, steep * (1.0 - ramp(height - top, -soft, soft)))
@@ -238,6 +239,7 @@ mod tests {
                 sight: [1.0, 0.0, 0.3],
                 above: 100.0,
                 beach: 0.0,
+                bed: [0.0; 3],
             };
             Cover::grain_of_wall(&spot, 10.0)
         };

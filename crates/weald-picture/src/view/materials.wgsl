@@ -108,9 +108,9 @@ fn grain_of_wall(spot: SurfacePoint, thick: f32) -> f32 {
 // Colour of ground of a colour, of which a share is a face that shows the edges of its beds, ragged by so many metres.
 fn with_face(spot: SurfacePoint, albedo: vec3<f32>, steep: f32, ragged: f32) -> vec3<f32> {
     let cells = UPHILL * scene.scale.w / scene.grid.zw;
-    let there = spot.place + cells * vec2<f32>(-spot.fall.x, spot.fall.y);
+    let there = spot.place + cells * spot.bed.yz;
     let soft = max(SOFT, 0.5 * spot.footprint * min(spot.slope, 1.0));
-    let height = spot.point.z + ragged;
+    let height = spot.bed.x + ragged;
     // What is gentle turns no loop, which software would take for all pixels.
     let count = select(0, i32(scene.strata.z), steep > 0.0);
     let face = strata_material(there, height, soft, count);

@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use super::camera::{self, Camera};
 use super::facets;
-use super::ground_kinds::SurfacePoint;
+use super::ground_kinds::{SurfacePoint, bed_of};
 use super::keys::View;
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::pixel_mean::PixelMean;
@@ -33,6 +33,8 @@ pub(super) struct GroundSpot {
     pub(super) place: [f32; 2],
     /// Height of the smooth ground, and its rise by the cell.
     pub(super) surface: [f32; 3],
+    /// The same of the place that it is like.
+    pub(super) own: [f32; 3],
     pub(super) point: Vector,
     pub(super) footprint: f32,
     /// Direction in which it is looked at.
@@ -163,12 +165,9 @@ impl RayMarcher {
         let ground = self.setting.bed.at(hit.place);
         let depth =
             self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
-        let spot = || GroundSpot {
-            place: hit.place,
-            surface: self.setting.bed.with_slope(hit.place),
-            point,
-            footprint,
-            direction: ray.direction,
+        let spot = || {
+            let (surface, direction) = (self.setting.bed.with_slope(hit.place), ray.direction);
+            GroundSpot { place: hit.place, surface, own: surface, point, footprint, direction }
         };
         if depth > 0.0 {
             return self.shore(ray, hit, &spot(), depth);
@@ -217,7 +216,7 @@ impl RayMarcher {
 
     /// Dry ground, so many metres above the water beside it.
     pub(super) fn ground(&self, spot: &GroundSpot, above: f32) -> Vector {
-        let GroundSpot { place, surface: [height, east, south], point, footprint, direction } = *spot;
+        let GroundSpot { place, surface: [height, east, south], own, point, footprint, direction } = *spot;
         let terrain = &self.setting.terrain;
         let normal = terrain.normal([east, south]);
         let stretch = self.setting.exaggeration;
@@ -236,6 +235,7 @@ impl RayMarcher {
             sight,
             above: above / stretch,
             beach,
+            bed: bed_of(own, stretch),
         };
         let skin = self.cover.at(&spot);
         let rough = unit([

@@ -15,17 +15,29 @@ fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
 
 // Dry ground on a surface of a height and a rise by the cell, as colour and roughness.
 fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> SurfaceSample {
-    return ground_skin_at(place, point_of(place, 0.0).xy, surface, footprint, above);
+    return ground_skin_at(place, point_of(place, 0.0).xy, GroundHeights(surface, surface), footprint, above);
+}
+
+// Heights of ground, and their rise by the cell: those of a point, and of the place of the landscape that it is like.
+struct GroundHeights {
+    surface: vec3<f32>,
+    own: vec3<f32>,
+}
+
+// The beds of ground of such a height and rise, as a point of a surface has them.
+fn bed_of(own: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(own.x / scene.scale.y, own.yz / max(length(own.yz), 1e-6));
 }
 
 // The same at a point that is like a place of the landscape.
 fn ground_skin_at(
     place: vec2<f32>,
     at: vec2<f32>,
-    surface: vec3<f32>,
+    heights: GroundHeights,
     footprint: f32,
     above: f32,
 ) -> SurfaceSample {
+    let surface = heights.surface;
     let normal = normal_of(surface.yz);
     let stretch = scene.scale.y;
     let run = length(normal.xy);
@@ -33,7 +45,7 @@ fn ground_skin_at(
     let slope = run / max(normal.z, 1e-3) / stretch;
     let fall = normal.xy / max(run, 1e-6);
     let beach = beach_height(surface.x - above);
-    var skin = cover_at(SurfacePoint(place, point, slope, fall, footprint, above / stretch, beach));
+    var skin = cover_at(SurfacePoint(place, point, slope, fall, footprint, above / stretch, beach, bed_of(heights.own)));
     let width = swash_width(surface.x - above);
     skin.albedo = wetted(skin.albedo, above, wet_reach(width, slope));
     return skin;

@@ -93,6 +93,9 @@ pub(super) struct Beyond {
     pub(super) river: [f32; 2],
     /// Height of the ground, and its rise by the cell eastward and southward.
     pub(super) surface: [f32; 3],
+    /// Height and rise of the ground of the place that it is like: its beds lie by those, or walls of hard beds would have
+    /// edges of others.
+    pub(super) own: [f32; 3],
     /// How much of the border is left behind: 0 there, 1 far away.
     pub(super) share: f32,
 }
@@ -242,15 +245,16 @@ impl Surroundings {
         };
         let surface = [near + (far - near) * share, rise(0), rise(1)];
         let river = if share < 0.5 { mirrored } else { turned };
-        Beyond { place: self.likeness(place, share, [mirrored, turned]), river, surface, share }
+        let (place, own) = if self.is_near(place, share) { (mirrored, within) } else { (turned, there) };
+        Beyond { place, river, surface, own, share }
     }
 
-    /// Which of two places a place is like; the border between them is ragged.
-    fn likeness(&self, place: [f32; 2], share: f32, [near, far]: [[f32; 2]; 2]) -> [f32; 2] {
+    /// Whether a place is like the mirrored one and not like the turned one; the border between them is ragged.
+    fn is_near(&self, place: [f32; 2], share: f32) -> bool {
         let patches =
             Octaves { wavelength: 0.05 * self.cells[0].max(self.cells[1]), count: 4, gain: 0.55, seed: 0x61 };
         let patchy = patches.at([place[0], place[1], 0.0], 0.0).value;
-        if share + 0.5 * patchy < 0.5 { near } else { far }
+        share + 0.5 * patchy < 0.5
     }
 
     /// Level of the water at a place beyond the border, for that of the landscape, and the height of the ground there and how

@@ -46,6 +46,8 @@ struct Beyond {
     // The place whose rivers run there.
     river: vec2<f32>,
     surface: vec3<f32>,
+    // Height and rise of the ground of the place that it is like: its beds lie by those.
+    own: vec3<f32>,
     share: f32,
 }
 
@@ -118,9 +120,11 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let slope = mix(near_rise, far_rise, share) + (far - near) * growth;
     let longer = max(scene.grid.x, scene.grid.y);
     let patchy = octaves_at(Octaves(0.05 * longer, 4u, 0.55, 0x61u), place, 0.0).value;
-    let like = select(turned.place, mirrored.place, share + 0.5 * patchy < 0.5);
+    let is_near = share + 0.5 * patchy < 0.5;
+    let like = select(turned.place, mirrored.place, is_near);
+    let own = select(there, within, is_near);
     let river = select(turned.place, mirrored.place, share < 0.5);
-    return Beyond(like, river, vec3<f32>(mix(near, far, share), slope), share);
+    return Beyond(like, river, vec3<f32>(mix(near, far, share), slope), own, share);
 }
 
 // Level of the water at a place beyond the border; far below the ground where a scene has no water.

@@ -1,6 +1,6 @@
 //! The trees of the woods of a scene, one by one, for those who draw them as such.
 
-use super::ground_kinds::{SurfacePoint, UPRIGHT};
+use super::ground_kinds::{SurfacePoint, UPRIGHT, bed_of};
 use super::lit_scene::LitScene;
 use super::water;
 use super::woods::Tree;
@@ -54,6 +54,7 @@ impl LitScene {
             sight: UPRIGHT,
             above: above / stretch,
             beach,
+            bed: bed_of([height, east, south], stretch),
         }
     }
 }

@@ -22,7 +22,7 @@ fn wooded_ground(east_north: vec2<f32>, footprint: f32) -> SurfacePoint {
     let above = -lake_depth(place, surface.x) / scene.scale.y;
     let point = vec3<f32>(east_north, surface.x / scene.scale.y);
     let beach = beach_height(surface.x - above * scene.scale.y);
-    return SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), footprint, above, beach);
+    return SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), footprint, above, beach, bed_of(surface));
 }
 
 // Trees stand within the border alone, and where there is land.

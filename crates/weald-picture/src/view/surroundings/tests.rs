@@ -67,6 +67,20 @@ fn the_rise_beyond_the_border_is_that_of_its_heights() {
 }
 
 #[test]
+fn beds_beyond_the_border_lie_by_the_ground_of_the_place_that_is_seen_there() {
+    let bed = ground(hills);
+    let around = Surroundings::new(&bed, None);
+    let mut off = 0.0_f32;
+    for step in 0..400 {
+        let place = [0, 1].map(|seed| 240.0 * uniform(hash2(seed, step, 3)) as f32 - 90.0);
+        let beyond = around.at(&bed, place);
+        assert_eq!(beyond.own, bed.with_slope(beyond.place), "{place:?}");
+        off = off.max((beyond.own[0] - beyond.surface[0]).abs());
+    }
+    assert!(off > 5.0, "it is not the height there, {off} m from it at most");
+}
+
+#[test]
 fn a_sea_goes_on_where_it_meets_the_border_and_land_where_land_does() {
     // Land in the east, a sea floor in the west.
     let bed = ground(|x, _| if x < 30 { -50.0 } else { 2.0 * (x - 30) as f32 });
