@@ -54,8 +54,8 @@ parameters! {
         /// What grows: `[{ name = "reed", share = 2, where = [{ layer = "moisture", above = 0.9 }] }, …]`. Without any,
         /// ryegrass.
         species: Vec<Nested<Kind>> = Vec::new();
-        /// How much sets of a tussock, which is 0.7 m wide, share: of so many the species, and all of them soil that is by up to half of
-        /// that better or worse than the layer's. With 0, as in the publication, each set stands alone.
+        /// How alike the sets of a tussock, 0.7 m wide, are: this share of them is of one species, and the soil of tussocks is up to half
+        /// of it better or worse than the layer's. 0, as in the publication: each set stands alone.
         tussocks: f64 = 0.6, range 0.0..=1.0;
         /// Depth of the layer `water`, where there is one, up to which grass stands in it.
         water: f64 = 0.05, range 0.0..=1.0e4, unit "m";
@@ -84,6 +84,9 @@ parameters! {
         r#where: Vec<Nested<Condition>> = Vec::new();
         /// Height of a straight blade at its best. Without it, that of the species.
         height: Option<f64> = None, range 0.001..=100.0, unit "m";
+        /// Angle from upright at which blades leave the ground at most, each by chance. Without it, that of the species; 0, as in the
+        /// publication: all stand upright there.
+        splay_deg: Option<f64> = None, range 0.0..=45.0, unit "deg";
         /// Three control values of the response to soil: the curve passes through the first at soil 0 and the last at 1,
         /// and is pulled towards the second between. Without them, those of the species.
         soil_curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
@@ -234,6 +237,7 @@ impl Kind {
         let mut species =
             Species::named(&self.name).ok_or_else(|| Fault::of("name", unknown(&self.name)))?.clone();
         species.height = self.height.map_or(species.height, |height| height as f32);
+        species.splay = self.splay_deg.map_or(species.splay, |splay| splay.to_radians() as f32);
         let at = |key| move |message: String| Fault::of(key, message);
         if let Some(values) = values("soil_curve", &self.soil_curve).map_err(at("soil_curve"))? {
             species.curves.soil = SoilCurve::new(values).map_err(at("soil_curve"))?;

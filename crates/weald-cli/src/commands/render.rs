@@ -37,7 +37,8 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let scene = LitScene::with_crags(&view, &landscape)?;
     let cameras = viewpoint::cameras(files, &view, &scene)?;
     let scene = scene.seen_from(cameras[0]);
-    let request = RenderRequest { view: &view, scene: &scene, landscape: &landscape, samples: files.samples };
+    let (samples, is_film) = (files.samples, moves(files));
+    let request = RenderRequest { view: &view, scene: &scene, landscape: &landscape, samples, is_film };
     write(files, &output, &cameras, device.set_up(&request)?.as_mut())
 }
 

@@ -169,7 +169,13 @@ impl<'a> Filmed<'a> {
     fn frame(&mut self) -> Result<(), Error> {
         let (landscape, _) = self.session.landscape()?;
         let scene = self.scene.changed(&self.view, &landscape)?;
-        let request = RenderRequest { view: &self.view, scene: &scene, landscape: &landscape, samples: 4 };
+        let request = RenderRequest {
+            view: &self.view,
+            scene: &scene,
+            landscape: &landscape,
+            samples: 4,
+            is_film: true,
+        };
         let seconds = self.frames.len() as f64 / SHOWN;
         self.frames.push(self.device.set_up(&request)?.draw(&self.scene.camera(), seconds)?);
         Ok(())

@@ -5,7 +5,7 @@
 @group(2) @binding(3) var blades: texture_2d<u32>;
 
 // Leaf area above a leaf from which on it is no darker: stands are some metres wide, and light comes from their sides as well.
-const DEEPEST_IN_LEAVES = 2.5;
+const DEEPEST_IN_LEAVES = 1.2;
 
 // A corner of a blade, in few numbers: what draws triangles works on each, and the point follows from where a pixel is.
 struct Leaf {

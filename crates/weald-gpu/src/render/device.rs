@@ -4,6 +4,7 @@ use weald::Error;
 use weald::engine::device::Device;
 use weald::picture::{Camera, GrassRate, Image, RenderDevice, RenderRequest, Rendering};
 
+use super::grass_look::GrassLook;
 use super::options::Options;
 use super::renderer::Renderer;
 use super::tables::{GrassRow, Measuring, grass_tables};
@@ -21,7 +22,11 @@ impl RenderDevice for Gpu {
     fn set_up<'a>(&self, request: &RenderRequest<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
         let size = [request.view.width, request.view.height];
         let options = Options { size, samples: request.samples };
-        Ok(Box::new(Renderer::planted(self, (request.scene, request.landscape), options)?))
+        let mut renderer = Renderer::planted(self, (request.scene, request.landscape), options)?;
+        if !request.is_film && request.samples > 1 {
+            renderer.set_grass_look(GrassLook::of_a_still());
+        }
+        Ok(Box::new(renderer))
     }
 
     fn grass_rates(&self, most_sets: u32) -> Result<Vec<GrassRate>, Error> {

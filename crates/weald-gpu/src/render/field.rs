@@ -1,7 +1,7 @@
 //! A field of so many sets of grass with a pond in it, on which drawing is measured, and from where.
 
 use weald::grow::Vegetation;
-use weald::grow::grass::{Bend, Maps, Meadow, SPECIES};
+use weald::grow::grass::{Bend, Maps, Meadow, SPECIES, Species};
 use weald::picture::{Camera, LitScene, View};
 use weald::{Domain, Error, Field, Landscape, Size};
 
@@ -130,7 +130,7 @@ fn meadow(sets: u32, cell: f64, water: Option<Field>) -> Meadow {
     let (density, soil, light, shares) = (filled(1.0), filled(0.8), filled(0.7), vec![filled(1.0)]);
     let maps = Maps { cell, valid: None, density, soil, light, shares, water, mown: None, trodden: None };
     let mut meadow = Meadow {
-        species: vec![SPECIES[0].clone()],
+        species: vec![Species { splay: 0.0, ..SPECIES[0].clone() }],
         bend: Bend::Total,
         seed: 1,
         densest: f64::from(sets) / side(sets).powi(2),

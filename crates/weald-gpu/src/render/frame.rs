@@ -65,6 +65,9 @@ pub(super) struct Drawn {
     pub(super) cascades: Cascades,
     /// How far trees of woods are drawn one by one, in metres.
     pub(super) woods: f32,
+    /// How many times as far as in a moving picture blades of grass reach, and metres up to which all of them stand where
+    /// they reach no farther.
+    pub(super) grass: [f32; 2],
     /// The cascades that are drawn anew.
     pub(super) stale: [bool; CASCADES],
     /// The picture before, where light is taken from it.
@@ -164,7 +167,7 @@ fn write(into: &mut Upload<'_>, store: &Store, (camera, size): (&Camera, [u32; 2
         woods: [drawn.woods, 0.0, 0.0, 0.0],
         shares: drawn.cascades.shares,
         stale: drawn.stale.map(f32::from),
-        pixel: [across, down, 0.0, 0.0],
+        pixel: [across, down, drawn.grass[0], drawn.grass[1]],
         before: drawn.before.map_or([[0.0; 4]; 4], |before| numbers_before(camera, before)),
     };
     into.write(store, bytemuck::bytes_of(&numbers));

@@ -32,7 +32,8 @@ struct Frame {
     before_forward: vec4<f32>,
     before_right: vec4<f32>,
     before_up: vec4<f32>,
-    // What a pixel spans across and down, at a distance of 1.
+    // What a pixel spans across and down, at a distance of 1; how many times as far as in a moving picture blades of grass reach,
+    // and metres up to which all of them stand where they reach no farther.
     pixel: vec4<f32>,
 }
 

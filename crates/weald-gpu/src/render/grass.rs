@@ -1,7 +1,7 @@
 //! Grass on a device: the sets around the camera, culled and thinned there, and drawn blade by blade.
 //!
 //! The processor makes the instances of 16 bytes of the squares around the camera (`weald::grow::grass`), as often as it
-//! comes into another square; all else happens on the device. Three passes (`cull.wgsl`) put those in sight into one of
+//! comes into another square, and of a picture that is drawn once those in its sight (`sowing.rs`); all else happens on the device. Three passes (`cull.wgsl`) put those in sight into one of
 //! three lists by distance, of which each is an indirect draw of blades with fewer vertices. Sets that are close together lie
 //! side by side, so that one look leaves out those of a run that no camera there sees (`runs.rs`). The farther, the fewer sets
 //! stand, and the broader are their blades; a set sinks into the ground over a stretch of the way, so that none vanishes
@@ -101,7 +101,13 @@ impl Grass {
         self.layers.iter_mut().try_for_each(|layer| layer.prepare(gpu, around, &self.layouts))
     }
 
-    /// What is sown now.
+    /// Metres up to which all sets stand, as the densest grass has it, where blades reach so many times as far: one number for all, which the
+    /// ground has as well.
+    pub(super) fn whole(&self, reach: f32) -> f32 {
+        choice::whole(self.layers.iter().map(GrassLayer::densest).fold(0.0, f64::max), reach)
+    }
+
+    /// The sets that are there now.
     pub(super) fn loaded(&self) -> impl Iterator<Item = &LoadedSets> {
         self.layers.iter().filter_map(GrassLayer::loaded)
     }

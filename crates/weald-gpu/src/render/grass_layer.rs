@@ -4,24 +4,20 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Weak};
 
 use weald::Error;
-use weald::error::{DeviceError, DeviceErrorKind, Limit, Quantity};
-use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
-use weald::grow::grass::{Area, BLADES, Grasses, Instance, Meadow, Packed};
+use weald::error::{DeviceError, DeviceErrorKind};
+use weald::grow::grass::choice::{Choice, LISTS};
+use weald::grow::grass::{BLADES, Grasses, Meadow};
+use weald::picture::Camera;
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindingResource, BufferUsages};
 
 use super::blades;
 use super::grass_look::GrassLook;
 use super::records::Records;
 use super::runs::{self, RUN};
+use super::sowing::{self, GrassArea};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::transfer::uniform;
-
-/// Side of the squares in metres, at the change of which sets are made anew.
-const SQUARE: f64 = 16.0;
-
-/// Most sets at once: records of their blades lie in a texture of at most 8192 by 8192 texels.
-const MAX_SETS: f64 = (5_u32 << 20) as f64;
 
 /// Bytes of a set, of its place in a list, and of the marks of a run.
 const SET: u64 = 16;
@@ -62,6 +58,7 @@ struct Seeds {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around<'a> {
     pub(super) from: [f32; 3],
+    pub(super) camera: &'a Camera,
     pub(super) look: GrassLook,
     /// The view for which it is kept.
     pub(super) viewer: &'a Arc<()>,
@@ -69,8 +66,8 @@ pub(super) struct Around<'a> {
     pub(super) waits: bool,
 }
 
-/// What is shown, and around which square; all where there is none.
-type Shown = (GrassLook, Option<[i64; 2]>);
+/// What is shown, and of which ground; of all where there is none.
+type Shown = (GrassLook, Option<GrassArea>);
 
 /// What another thread sows.
 type Sowing = (Shown, Receiver<Result<Option<LoadedSets>, Error>>);
@@ -109,6 +106,11 @@ impl GrassLayer {
         Ok(Self { seeds, views: Vec::new(), current: 0 })
     }
 
+    /// Most sets on a square metre.
+    pub(super) fn densest(&self) -> f64 {
+        self.seeds.meadow.densest
+    }
+
     /// What the view has that was prepared last.
     pub(super) fn loaded(&self) -> Option<&LoadedSets> {
         self.views.get(self.current)?.loaded.as_ref()
@@ -129,10 +131,8 @@ impl GrassLayer {
         if known.is_none() {
             self.views.push(ViewerSets { viewer, ..ViewerSets::default() });
         }
-        let [east, north, _] = around.from;
-        let square =
-            around.look.thinned.then(|| [east, -north].map(|at| (f64::from(at) / SQUARE).floor() as i64));
-        let wanted = (around.look, square);
+        let Around { from, look, camera, .. } = *around;
+        let wanted = (look, look.thinned.then(|| GrassArea::around(from, look.reach, camera)));
         let view = &mut self.views[self.current];
         if around.waits {
             view.load(wanted, || self.seeds.load(gpu, wanted, layouts))
@@ -200,11 +200,11 @@ fn unsown(_: TryRecvError) -> Error {
 }
 
 impl Seeds {
-    /// The sets around a square, or all; `None` where there are none.
+    /// The sets that are wanted; `None` where there are none.
     fn load(
         &self,
         gpu: &Gpu,
-        (look, square): Shown,
+        (look, area): Shown,
         layouts: &[BindGroupLayout; 3],
     ) -> Result<Option<LoadedSets>, Error> {
         let level = look.level.unwrap_or(self.meadow.level);
@@ -212,9 +212,9 @@ impl Seeds {
             Some(level) => &Arc::new(Meadow { level, ..(*self.meadow).clone() }),
             None => &self.meadow,
         };
-        let sets = match square {
-            Some(square) => around(meadow, square)?,
-            None => checked(meadow, &meadow.area())?,
+        let sets = match area {
+            Some(area) => area.sets(meadow)?,
+            None => sowing::checked(meadow, &meadow.area())?,
         };
         if sets.is_empty() {
             return Ok(None);
@@ -254,44 +254,6 @@ impl LoadedSets {
     pub(super) fn start_of(&self, list: u64) -> u64 {
         4 * list * u64::from(self.runs())
     }
-}
-
-/// The sets that may be drawn from within a square, the smallest pixels included: the farther from it, the fewer.
-fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
-    let reach = f64::from(FARTHEST);
-    let [low, high] = [0, 1].map(|end| square.map(|at| (at + end) as f64 * SQUARE));
-    let strips = ((high[1] - low[1] + 2.0 * reach) / SQUARE).ceil() as u32;
-    let choice = Choice::of_a_picture();
-    let may_be_drawn = |set: &Packed| {
-        let Instance { place, tuft, .. } = Instance::unpack(*set);
-        let away = [0, 1].map(|axis| {
-            let at = f64::from(place[axis]);
-            (low[axis] - at).max(at - high[axis]).max(0.0) as f32
-        });
-        choice.height_share(tuft.rank(), away[0].hypot(away[1]), 1.0) > 0.0
-    };
-    let mut sets = Vec::new();
-    for strip in 0..strips {
-        let north = low[1] - reach + f64::from(strip) * SQUARE;
-        let area = Area { low: [low[0] - reach, north], high: [high[0] + reach, north + SQUARE] };
-        sets.extend(checked(meadow, &area)?.into_iter().filter(may_be_drawn));
-        check(sets.len() as f64)?;
-    }
-    Ok(sets)
-}
-
-/// All sets of an area, unless there are too many.
-fn checked(meadow: &Meadow, area: &Area) -> Result<Vec<Packed>, Error> {
-    check(meadow.expected(area))?;
-    Ok(meadow.sets(area))
-}
-
-fn check(sets: f64) -> Result<(), Error> {
-    if sets <= MAX_SETS {
-        return Ok(());
-    }
-    let limit = Limit::new(Quantity::GrassSets, sets.ceil() as u64, 0..=MAX_SETS as u64);
-    Err(limit.of("around the camera").remedy("sow fewer `sets` on a square metre").into())
 }
 
 /// The buffers of sets.

@@ -51,7 +51,7 @@ fn light_sets(@builtin(global_invocation_id) at: vec3<u32>) {
     store_set(at.x, lit(instance, root, distance));
     // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
     let standing = select(1.0, share(distance), choice.thinned == 1u);
-    let seen = 0.8 * distance * frame.eye.w;
+    let seen = 0.8 * distance * frame.eye.w / frame.pixel.z;
     for (var number = 0u; number < BLADES; number++) {
         var blade = blade_of(instance.species, instance.tuft, number);
         blade.width = max(blade.width * broader(standing), min(seen, 0.03));

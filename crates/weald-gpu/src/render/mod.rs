@@ -47,6 +47,7 @@ mod runs;
 mod screen;
 mod shadows;
 mod skyline;
+mod sowing;
 mod spacing;
 mod tables;
 mod targets;

@@ -352,7 +352,10 @@ impl Renderer {
         let heights_are_known = self.follower.is_none() && self.coming.is_none();
         let shown = Shown { detail_from: from, nearest, woods, heights_are_known };
         let drawn = self.terrain.prepare(into, camera, size, shown)?;
-        let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, before, ..drawn };
+        let (seconds, is_dry) = (self.seconds, self.is_dry);
+        let look = self.grass_look.of_camera(camera);
+        let grass = [look.reach, self.grass.as_ref().map_or(1.0, |grass| grass.whole(look.reach))];
+        let mut drawn = Drawn { seconds, is_dry, grass, before, ..drawn };
         let pixel_angle = camera.pixel_angle(size[0] as usize);
         let wanted = CascadeContent::of(&drawn, pixel_angle);
         drawn.stale = self.shadows.stale(&wanted);
@@ -372,7 +375,7 @@ impl Renderer {
             plants.choose(encoder, groups, drawn.stale);
         }
         if let Some(grass) = &mut self.grass {
-            let around = Around { from, look: self.grass_look, viewer: &onto.viewer, waits };
+            let around = Around { from, camera, look, viewer: &onto.viewer, waits };
             grass.prepare(&self.gpu, &around)?;
             grass.choose(encoder, groups, self.timer.as_ref());
         } else if let Some(timer) = &self.timer {

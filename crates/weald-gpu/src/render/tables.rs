@@ -113,7 +113,7 @@ const BUDGETS: [u32; 3] = [10_000, 100_000, 1_000_000];
 
 /// All sets as the source draws them, of a level from 1 to 4.
 fn as_in_the_source(level: usize, culled: bool) -> GrassLook {
-    GrassLook { culled, thinned: false, level: Some(level as f32) }
+    GrassLook { culled, thinned: false, reach: 1.0, level: Some(level as f32) }
 }
 
 fn plans_of_the_source() -> Vec<Plan> {
@@ -138,7 +138,7 @@ fn plans_of_the_source() -> Vec<Plan> {
 fn plans_of_the_budget() -> Vec<Plan> {
     let looks = [(true, true), (false, true), (true, false), (false, false)];
     let plan = |sets, (culled, thinned)| {
-        let look = GrassLook { culled, thinned, level: None };
+        let look = GrassLook { culled, thinned, reach: 1.0, level: None };
         Plan { table: 0, standpoint: GrassStandpoint::Eye, look, sets, source: None }
     };
     BUDGETS.into_iter().flat_map(|sets| looks.map(|look| plan(sets, look))).collect()

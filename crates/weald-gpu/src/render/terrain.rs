@@ -169,6 +169,7 @@ impl Terrain {
                 self.has_horizon,
             ),
             woods,
+            grass: [1.0; 2],
             stale: [true; CASCADES],
             before: None,
         })

@@ -1,10 +1,9 @@
-// How many of the sets of grass stand at a distance: the twin of `share` in choice.rs.
+// How many of the sets of grass stand at a distance: the twin of `Detail::share` in choice.rs.
 
-// Distance in metres beyond which there is no blade.
+// Distance in metres beyond which there is no blade, but where they reach farther.
 const FARTHEST = 96.0;
 
-// Distance up to which every set stands, and how fast they become fewer beyond it.
-const WHOLE = 10.0;
+// How fast sets become fewer beyond where all stand.
 const THINNING = 1.15;
 
 // Most times as broad blades become where there are fewer of them.
@@ -16,9 +15,9 @@ const GRASS_PIXEL = 1e-3;
 const FINEST = 0.5;
 const COARSEST = 2.0;
 
-// How many times as far away as they are blades count: as many as pixels are larger.
+// How many times as far away as they are blades count: as many as pixels are larger, which count as smaller where blades reach farther.
 fn coarser() -> f32 {
-    return clamp(frame.eye.w / GRASS_PIXEL, FINEST, COARSEST);
+    return clamp(frame.eye.w / (GRASS_PIXEL * frame.pixel.z), FINEST, COARSEST);
 }
 
 // A distance as it counts for the shape of blades.
@@ -28,8 +27,10 @@ fn counted(distance: f32) -> f32 {
 
 fn share(distance: f32) -> f32 {
     let larger = max(coarser(), 1.0);
-    let thinned = pow(WHOLE / max(larger * sqrt(larger) * distance, WHOLE), THINNING);
-    return thinned * clamp((FARTHEST - distance) / (0.35 * FARTHEST), 0.0, 1.0);
+    let within = distance / frame.pixel.z;
+    let whole = frame.pixel.w;
+    let thinned = pow(whole / max(larger * sqrt(larger) * within, whole), THINNING);
+    return thinned * clamp((FARTHEST - within) / (0.35 * FARTHEST), 0.0, 1.0);
 }
 
 // How many times as broad blades are where so many sets stand, so that a meadow stays as thick.

@@ -3,7 +3,7 @@
 use crate::programs::gpu;
 use crate::scenes::{above, meadow, meadow_with, options, view};
 use weald::grow::Vegetation;
-use weald::grow::grass::choice::{Choice, LISTS, ViewCone, coarser};
+use weald::grow::grass::choice::{Choice, Detail, LISTS, ViewCone, coarser};
 use weald::grow::grass::{Instance, Meadow, Packed};
 use weald::picture::{Camera, LitScene};
 use weald_gpu::{Chosen, GrassLook, Renderer};
@@ -15,11 +15,12 @@ const UNSURE: f32 = 1e-4;
 /// Greatest share of sets that may be so near.
 const FEW: f64 = 0.01;
 
-const LOOKS: [GrassLook; 4] = [
-    GrassLook { culled: true, thinned: true, level: None },
-    GrassLook { culled: false, thinned: true, level: None },
-    GrassLook { culled: true, thinned: false, level: None },
-    GrassLook { culled: false, thinned: false, level: Some(2.0) },
+const LOOKS: [GrassLook; 5] = [
+    GrassLook { culled: true, thinned: true, reach: 1.0, level: None },
+    GrassLook { culled: false, thinned: true, reach: 1.0, level: None },
+    GrassLook { culled: true, thinned: true, reach: 1.7, level: None },
+    GrassLook { culled: true, thinned: false, reach: 1.0, level: None },
+    GrassLook { culled: false, thinned: false, reach: 1.0, level: Some(2.0) },
 ];
 
 /// As choices of a look are made.
@@ -32,13 +33,14 @@ fn choice(look: GrassLook) -> Choice {
 /// The sets of each list by the CPU, and those of which it is not sure.
 fn by_the_cpu(
     scene: &LitScene,
-    camera: &Camera,
+    (camera, reach): (&Camera, f32),
     (choice, meadow): (Choice, &Meadow),
     sets: &[Packed],
 ) -> [Vec<Packed>; LISTS + 1] {
     let axes = [camera.forward, camera.right, camera.up];
-    let coarser = coarser(camera.pixel_angle(options(1).size[0] as usize));
-    let sight = ViewCone { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye, coarser };
+    let coarser = coarser(camera.pixel_angle(options(1).size[0] as usize) / reach);
+    let detail = Detail::new(coarser, reach, meadow.densest);
+    let sight = ViewCone { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye, detail };
     let mut lists = [const { Vec::new() }; LISTS + 1];
     for &set in sets {
         let Instance { place: [east, south], species, tuft } = Instance::unpack(set);
@@ -101,7 +103,11 @@ fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
             // The CPU chooses among all: what is sown on the device depends on the camera as well.
             let level = look.level.unwrap_or(grass.level);
             let sets = Meadow { level, ..(*grass).clone() }.sets(&grass.area());
-            let counts = compare(chosen, &by_the_cpu(&scene, &camera, (choice(look), &grass), &sets), all);
+            let counts = compare(
+                chosen,
+                &by_the_cpu(&scene, (&camera, look.reach), (choice(look), &grass), &sets),
+                all,
+            );
             println!("{look:?}: {counts:?} of {} sown of {all}", chosen.sets.len());
             match look {
                 GrassLook { culled: false, thinned: false, .. } => assert_eq!(counts[0], all),
@@ -127,11 +133,16 @@ fn sets_that_ground_hides_are_left_out_and_no_picture_misses_them() {
     let mut hidden = 0;
     for (place, turn) in [([60.0, 70.0], 0.0), ([20.0, 30.0], 135.0), ([90.0, 100.0], 330.0)] {
         let camera = above(&scene, place, 1.7, 3.0, turn);
-        let look = GrassLook { culled: true, thinned: true, level: None };
+        let look = GrassLook { culled: true, thinned: true, reach: 1.0, level: None };
         renderer.set_grass_look(look);
         let chosen = &renderer.chosen(&camera).expect("chosen")[0];
-        let seen = compare(chosen, &by_the_cpu(&scene, &camera, (choice(look), &grass), &sets), sets.len());
-        let all = by_the_cpu(&scene, &camera, (Choice { hides: 0, ..choice(look) }, &grass), &sets);
+        let seen = compare(
+            chosen,
+            &by_the_cpu(&scene, (&camera, look.reach), (choice(look), &grass), &sets),
+            sets.len(),
+        );
+        let all =
+            by_the_cpu(&scene, (&camera, look.reach), (Choice { hides: 0, ..choice(look) }, &grass), &sets);
         let in_sight: usize = all[..LISTS].iter().map(Vec::len).sum();
         hidden += in_sight.saturating_sub(seen.iter().sum());
         let without_them = renderer.render(&camera).expect("drawn");

@@ -62,6 +62,8 @@ pub struct RenderRequest<'a> {
     pub landscape: &'a Landscape,
     /// Samples per pixel at edges, 1 or 4.
     pub samples: u32,
+    /// Whether it is a frame of many: one picture may take its time for what is far away.
+    pub is_film: bool,
 }
 
 /// A scene on a device.

@@ -131,14 +131,26 @@ impl Render {
 }
 
 impl FrameSequence<'_> {
-    /// The scene on the device.
+    /// The scene on the device, for one picture.
     ///
     /// # Errors
     /// As [`RenderDevice::set_up`].
     pub fn set_up(&self) -> Result<Box<dyn Rendering + '_>, Error> {
+        self.set_up_for(false)
+    }
+
+    /// The scene on the device, for the frames of a film.
+    ///
+    /// # Errors
+    /// As [`RenderDevice::set_up`].
+    pub fn set_up_film(&self) -> Result<Box<dyn Rendering + '_>, Error> {
+        self.set_up_for(true)
+    }
+
+    fn set_up_for(&self, is_film: bool) -> Result<Box<dyn Rendering + '_>, Error> {
         let Self { render, scene, landscape, .. } = self;
-        let request = RenderRequest { view: &render.view, scene, landscape, samples: render.keys.samples };
-        self.device.set_up(&request)
+        let samples = render.keys.samples;
+        self.device.set_up(&RenderRequest { view: &render.view, scene, landscape, samples, is_film })
     }
 
     /// The camera of a frame.

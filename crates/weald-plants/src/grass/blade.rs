@@ -2,12 +2,12 @@
 //!
 //! A blade is as wide as α says, with two vertices in each of five rows a level: 40 at level 4 (Kim and Cho 2009). Its shape
 //! is a function of where along the stem and on which side, so that it can be drawn with any number of rows. In the
-//! source blades are as wide at the tip as at the root; those of a [`Species`] taper. A mown blade is a shorter one, a
-//! trodden one lies down. The shader `grass.wgsl` has the same names and the same order of operations.
+//! source blades are as wide at the tip as at the root, and upright at it; those of a [`Species`] taper, and leave the ground
+//! aslant, each by chance. A mown blade is a shorter one, a trodden one lies down. The shader `grass.wgsl` has the same names and the same order of operations.
 
 use super::curves::mix;
 use super::growth::{Bend, Growth, LEVELS, MAX_BEND, Point, points};
-use super::random::{direction, random};
+use super::random::{cosine, direction, random, sine};
 use super::species::Species;
 use super::spline::Spline;
 
@@ -26,12 +26,14 @@ const LEAN: u32 = 4;
 const FACING: u32 = 5;
 const PHASE: u32 = 6;
 const RANK: u32 = 7;
+const SPLAY: u32 = 8;
 
 /// Share of its height that a blade keeps that is trodden flat.
 const TRODDEN: f32 = 0.08;
 
-/// Width of a stalk beside that of a blade.
+/// Width of a stalk beside that of a blade, and how far it leans beside one: stalks are stiff.
 const STALK_WIDTH: f32 = 0.3;
+const STALK_SPLAY: f32 = 0.4;
 
 /// Blades that grow from one place, apart from where that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +113,8 @@ impl Set {
     pub fn height(&self, species: &Species, bend: Bend) -> f32 {
         let growth = Growth::at(&species.curves, self.soil, self.light);
         let turn = growth.bend * species.bending * bend.of_a_level();
-        let stem = trodden(Spline::of(&points(growth.height, turn), self.level), self.trodden);
+        let stem = splayed(Spline::of(&points(growth.height, turn), self.level), 0.5 * species.splay);
+        let stem = trodden(stem, self.trodden);
         (highest(&stem) * species.height * (1.0 / LEVELS as f32)).min(self.cut * species.top())
     }
 }
@@ -127,7 +130,8 @@ impl Blade {
         let lean = 1.0 + species.variation * (random(LEAN) - 0.5);
         let turn = (growth.bend * species.bending * lean).clamp(0.0, MAX_BEND) * bend.of_a_level();
         let stem = Spline::of(&points(growth.height, turn), tuft.level);
-        let stem = trodden(stem, tuft.trodden);
+        let splay = species.splay * if stalk { STALK_SPLAY } else { 1.0 };
+        let stem = trodden(splayed(stem, splay * random(SPLAY)), tuft.trodden);
         let scale = species.height * tall * (1.0 / LEVELS as f32);
         let limit = tuft.cut * species.top();
         let kept = (limit / (highest(&stem) * scale).max(1e-20)).min(1.0);
@@ -214,6 +218,13 @@ pub fn rows(level: f32) -> usize {
 fn around(seed: u32, number: u32, random_of_blade: f32) -> f32 {
     let turns = random(seed, 0, YAW) + (number as f32 + random_of_blade) * (1.0 / BLADES as f32);
     turns - turns.floor()
+}
+
+/// A stem that leaves the ground at such an angle from upright.
+#[inline]
+fn splayed(stem: Spline, angle: f32) -> Spline {
+    let (s, c) = (sine(angle), cosine(angle));
+    Spline(stem.0.map(|[up, out]| [up * c - out * s, up * s + out * c]))
 }
 
 /// A stem that is trodden so far down.

@@ -1,13 +1,15 @@
 //! Which sets of a meadow are drawn, and how finely: what a device chooses anew for each picture.
 //!
 //! ```text
-//! share of the sets that stand at distance d     (W / max(c^1.5 d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
+//! share of the sets that stand at distance d     (V / max(c^1.5 d, V))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
 //! height share of a set of rank r                clamp((1.25 share - r) / 0.25, 0, 1)
 //! ```
 //!
-//! with W = 10 m, up to which all stand, F = 96 m, beyond which none does, and c = 1 but where pixels are larger than a
-//! thousandth of a radian: there it is how many times as large they are, 2 at most ([`coarser`], but never less than 1). With as many sets in them,
-//! blades, of which none is drawn much thinner than a pixel, were a pale coat. A set whose turn it is to be left out sinks
+//! with V = W min(D / n, 1)^(1 / 1.15) and W = 10 m, up to which all stand of a meadow with n sets on a square metre, if these are no more than
+//! D = 110, F = 96 m, beyond which none does, and c = 1 but where pixels are larger than a thousandth of a radian: there it is how many times as large they are, 2 at
+//! most (never less than 1 of [`coarser`]). With as many sets in them,
+//! blades, of which none is drawn much thinner than a pixel, were a pale coat. A picture that need not be drawn many times a second
+//! may have blades that reach farther: all distances d count as so many times less, and D is so many times as much. A set whose turn it is to be left out sinks
 //! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
 //! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
 //! second row has slid onto its neighbour, so that the blade is that of the next level already. A level ends where the bends of
@@ -33,9 +35,12 @@ pub const LISTS: usize = 3;
 /// Rows of the blades of each level of detail, of which each has its list.
 pub const ROWS: [u32; LISTS] = [9, 5, 3];
 
-/// Distance in metres up to which every set stands, and how fast they become fewer beyond it.
+/// Distance in metres up to which every set stands of a meadow that is no denser than [`CLOSEST`], and how fast they become fewer beyond it.
 const WHOLE: f32 = 10.0;
 const THINNING: f32 = 1.15;
+
+/// Most sets on a square metre of which all stand up to there in a moving picture.
+const CLOSEST: f64 = 110.0;
 
 /// Share of ranks over which a set that is left out sinks.
 const SINKING: f32 = 0.25;
@@ -83,8 +88,19 @@ pub struct ViewCone {
     pub half: [f32; 2],
     /// The point from which distances count: the eye, but in tests.
     pub detail_from: [f32; 3],
+    /// How much of grass is shown.
+    pub detail: Detail,
+}
+
+/// How much of grass a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detail {
     /// How many times as large pixels are, as [`coarser`] says.
     pub coarser: f32,
+    /// How many times as far as in a moving picture blades reach, 1 or more.
+    pub reach: f32,
+    /// [`whole`] of all grass.
+    whole: f32,
 }
 
 impl Choice {
@@ -106,9 +122,9 @@ impl Choice {
         root: [f32; 3],
     ) -> Option<usize> {
         let distance = length(minus(root, sight.detail_from));
-        let stands = self.height_share(tuft.rank(), distance, sight.coarser) > 0.0;
+        let stands = self.height_share(tuft.rank(), distance, &sight.detail) > 0.0;
         let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), reach_of_blades(species));
-        (stands && seen).then(|| self.list(sight.coarser * distance))
+        (stands && seen).then(|| self.list(sight.detail.coarser * distance))
     }
 
     /// Whether ground hides all blades of a set: at a few places on the way from the eye to a point above its root it is higher
@@ -129,12 +145,12 @@ impl Choice {
         self.hides == 1 && (0..LOOKS).any(is_below_ground)
     }
 
-    /// How high a set of a rank stands at a distance, as a share, where pixels are so many times as large: 0 where it is left out.
-    pub fn height_share(&self, rank: f32, distance: f32, coarser: f32) -> f32 {
+    /// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
+    pub fn height_share(&self, rank: f32, distance: f32, detail: &Detail) -> f32 {
         if self.thinned == 0 {
             return 1.0;
         }
-        ((share(distance, coarser) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
+        ((detail.share(distance) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
     }
 
     /// How far every second row of a list's blades has slid onto the one before it, at a distance as it counts.
@@ -170,11 +186,26 @@ pub fn reach_of_blades(species: &Species) -> f32 {
     tallest(species) + SPARE
 }
 
-/// How many of the sets stand at a distance, where pixels are so many times as large ([`coarser`]).
-pub fn share(distance: f32, coarser: f32) -> f32 {
-    let larger = coarser.max(1.0);
-    let thinned = libm::powf(WHOLE / (larger * larger.sqrt() * distance).max(WHOLE), THINNING);
-    thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
+/// Distance in metres, where blades reach no farther than in a moving picture, up to which every set stands of grass of which the densest has
+/// so many on a square metre: of a denser one no more stand far away than of one with [`CLOSEST`], and so many times as many where blades reach so many
+/// times as far.
+pub fn whole(densest: f64, reach: f32) -> f32 {
+    WHOLE * libm::pow((CLOSEST * f64::from(reach) / densest).min(1.0), 1.0 / f64::from(THINNING)) as f32
+}
+
+impl Detail {
+    /// That of grass of which the densest has so many sets on a square metre.
+    pub fn new(coarser: f32, reach: f32, densest: f64) -> Self {
+        Self { coarser, reach, whole: whole(densest, reach) }
+    }
+
+    /// How many of the sets stand at a distance.
+    pub fn share(&self, distance: f32) -> f32 {
+        let larger = self.coarser.max(1.0);
+        let within = distance / self.reach;
+        let thinned = libm::powf(self.whole / (larger * larger.sqrt() * within).max(self.whole), THINNING);
+        thinned * ((FARTHEST - within) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
+    }
 }
 
 impl ViewCone {
@@ -211,8 +242,10 @@ mod tests {
         axes: [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
         half: [1.0, 0.5],
         detail_from: [0.0; 3],
-        coarser: 1.0,
+        detail: PLAIN,
     };
+
+    const PLAIN: Detail = Detail { coarser: 1.0, reach: 1.0, whole: WHOLE };
 
     fn distances() -> impl Iterator<Item = f32> {
         (0..1200_u16).map(|step| 0.1 * f32::from(step))
@@ -221,10 +254,10 @@ mod tests {
     #[test]
     fn sets_become_fewer_with_the_distance_and_none_sinks_at_once() {
         let choice = Choice::of_a_picture();
-        assert_eq!((share(WHOLE, 1.0), share(FARTHEST, 1.0)), (1.0, 0.0));
-        assert!(distances().all(|at| share(at + 0.1, 1.0) <= share(at, 1.0)));
+        assert_eq!((PLAIN.share(WHOLE), PLAIN.share(FARTHEST)), (1.0, 0.0));
+        assert!(distances().all(|at| PLAIN.share(at + 0.1) <= PLAIN.share(at)));
         for rank in [0.0, 0.3, 0.99] {
-            let share = |at| choice.height_share(rank, at, 1.0);
+            let share = |at| choice.height_share(rank, at, &PLAIN);
             let sunk: Vec<_> = distances().map(|at| share(at) - share(at + 0.1)).collect();
             assert!(sunk.iter().all(|sunk| (0.0..0.06).contains(sunk)), "rank {rank}");
             assert!((sunk.iter().sum::<f32>() - 1.0).abs() < 1e-4, "rank {rank} sinks wholly");
@@ -233,12 +266,30 @@ mod tests {
 
     #[test]
     fn fewer_sets_stand_where_pixels_are_larger() {
+        let [large, small] = [2.0, 0.5].map(|coarser| Detail { coarser, ..PLAIN });
         for at in [20.0, 30.0, 50.0] {
-            let fewer = share(at, 2.0) / share(at, 1.0);
+            let fewer = large.share(at) / PLAIN.share(at);
             assert!((0.29..0.31).contains(&fewer), "at {at} m: {fewer}");
-            assert_eq!(share(3.5, 2.0), 1.0, "near by all stand");
-            assert_eq!(share(at, 0.5), share(at, 1.0), "no more than all");
+            assert_eq!(large.share(3.5), 1.0, "near by all stand");
+            assert_eq!(small.share(at), PLAIN.share(at), "no more than all");
         }
+    }
+
+    #[test]
+    fn blades_that_reach_twice_as_far_are_as_many_as_half_as_far_away() {
+        let farther = Detail { reach: 2.0, ..PLAIN };
+        assert!(distances().all(|at| farther.share(2.0 * at) == PLAIN.share(at)));
+    }
+
+    #[test]
+    fn as_many_sets_stand_far_away_however_dense_a_meadow_is_and_all_near_by() {
+        let dense = Detail::new(1.0, 1.0, 2.0 * CLOSEST);
+        assert_eq!(Detail::new(1.0, 1.0, 0.5 * CLOSEST), PLAIN);
+        assert_eq!(Detail::new(1.0, 2.5, 2.5 * CLOSEST), Detail { reach: 2.5, ..PLAIN });
+        assert!(distances().skip(100).all(|at| (2.0 * dense.share(at) - PLAIN.share(at)).abs() < 1e-6));
+        assert_eq!(dense.share(5.0), 1.0);
+        let between = 2.0 * dense.share(7.0);
+        assert!((1.4..1.6).contains(&between), "{between} times as many at 7 m");
     }
 
     #[test]

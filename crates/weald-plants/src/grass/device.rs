@@ -74,7 +74,7 @@ impl Species {
             colour(self.good, self.bending),
             colour(self.bad, self.stalk),
             colour(self.head, self.heads as f32),
-            [self.head_length, self.head_width, 0.0, 0.0],
+            [self.head_length, self.head_width, self.splay, 0.0],
         ]
     }
 }

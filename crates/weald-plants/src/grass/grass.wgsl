@@ -14,8 +14,10 @@ const LEAN: u32 = 4u;
 const FACING: u32 = 5u;
 const PHASE: u32 = 6u;
 const RANK: u32 = 7u;
+const SPLAY: u32 = 8u;
 const TRODDEN: f32 = 0.08;
 const STALK_WIDTH: f32 = 0.3;
+const STALK_SPLAY: f32 = 0.4;
 
 struct Grasses {
     species: array<vec4<f32>, 144>,
@@ -250,6 +252,22 @@ fn rank_of(tuft: Set) -> f32 {
     return random(tuft.seed, 0u, RANK);
 }
 
+fn splayed_point(point: vec2<f32>, s: f32, c: f32) -> vec2<f32> {
+    return vec2<f32>(point.x * c - point.y * s, point.x * s + point.y * c);
+}
+
+fn splayed(stem: Spline, angle: f32) -> Spline {
+    let s = sine(angle);
+    let c = cosine(angle);
+    return Spline(
+        splayed_point(stem.a, s, c),
+        splayed_point(stem.b, s, c),
+        splayed_point(stem.c, s, c),
+        splayed_point(stem.d, s, c),
+        splayed_point(stem.e, s, c),
+    );
+}
+
 fn trodden_point(point: vec2<f32>, upright: f32, lying: f32) -> vec2<f32> {
     return vec2<f32>(point.x * upright, point.y + point.x * lying);
 }
@@ -281,7 +299,9 @@ fn blade_of(species: u32, tuft: Set, number: u32) -> Blade {
     let tall = (1.0 - shape.w * random(tuft.seed, number, HEIGHT)) * select(1.0, stalk_height, stalk);
     let lean = 1.0 + shape.w * (random(tuft.seed, number, LEAN) - 0.5);
     let turn = clamp(growth.bend * row_of(species, 5u).w * lean, 0.0, MAX_BEND) * grasses.level_turn;
-    let stem = trodden(stem_of(points(growth.height, turn), tuft.level), tuft.trodden);
+    let splay = heads.z * select(1.0, STALK_SPLAY, stalk);
+    let upright = stem_of(points(growth.height, turn), tuft.level);
+    let stem = trodden(splayed(upright, splay * random(tuft.seed, number, SPLAY)), tuft.trodden);
     let scale = height * tall * 0.25;
     let limit = tuft.cut * (height * max(stalk_height, 1.0));
     let kept = min(limit / max(highest(stem) * scale, 1e-20), 1.0);

@@ -123,11 +123,16 @@ impl Meadow {
             let (low, high) = (at as f64 * cell, (at + 1) as f64 * cell);
             (area.high[axis].min(high) - area.low[axis].max(low)).max(0.0)
         };
-        let row = |y: usize| -> f64 {
-            let cells = self.maps.density.row(y).iter().enumerate();
-            share(1, y) * cells.map(|(x, &density)| share(0, x) * f64::from(density)).sum::<f64>()
+        let cells = |axis: usize, count: usize| {
+            let [low, high] = [area.low[axis] / cell, area.high[axis] / cell];
+            (low.floor().max(0.0) as usize).min(count)..(high.ceil().max(0.0) as usize).min(count)
         };
-        self.densest * (0..size.rows).map(row).sum::<f64>()
+        let (columns, rows) = (cells(0, size.columns), cells(1, size.rows));
+        let row = |y: usize| -> f64 {
+            let of_cell = |x: usize| share(0, x) * f64::from(self.maps.density.row(y)[x]);
+            share(1, y) * columns.clone().map(of_cell).sum::<f64>()
+        };
+        self.densest * rows.map(row).sum::<f64>()
     }
 
     /// The height of the ground under a set, between the centres of cells; none beyond the outermost.

@@ -135,6 +135,55 @@ fn a_blade_of_level_4_has_40_vertices_and_a_set_240() {
     assert_eq!([1.0, 2.0, 2.5, 3.0, 4.0].map(rows), [5, 10, 15, 15, 20]);
 }
 
+/// Radians from upright at which the blades of a thousand sets leave the ground, all but stalks.
+fn leaving_angles(species: &Species) -> Vec<f32> {
+    let of = |seed: u32| {
+        let set = Set { soil: 0.6, light: 0.6, level: 4.0, cut: 1.0, trodden: 0.0, seed };
+        let blade = Blade::of(species, &set, species.heads, Bend::Total);
+        let (_, [rise, run]) = blade.stem.at(0.0);
+        run.atan2(rise)
+    };
+    (0..1000).map(of).collect()
+}
+
+#[test]
+fn blades_leave_the_ground_at_all_angles_up_to_the_splay_of_their_species() {
+    for species in &SPECIES {
+        let upright = leaving_angles(&Species { splay: 0.0, ..species.clone() });
+        let splayed = leaving_angles(species);
+        let turned: Vec<_> =
+            upright.iter().zip(&splayed).map(|(upright, splayed)| splayed - upright).collect();
+        let (least, most) =
+            (turned.iter().copied().fold(9.0, f32::min), turned.iter().copied().fold(-9.0, f32::max));
+        assert!(least > -1e-5 && most < species.splay + 1e-5, "{}: {least} to {most}", species.name);
+        let mean = turned.iter().sum::<f32>() / 1000.0;
+        assert!((mean / species.splay - 0.5).abs() < 0.03, "{}: {mean} in the mean", species.name);
+    }
+}
+
+#[test]
+fn a_splayed_blade_is_as_long_as_an_upright_one_and_a_stalk_leans_less() {
+    let oats = Species { variation: 0.0, ..SPECIES[4].clone() };
+    let upright = Species { splay: 0.0, ..oats.clone() };
+    let set = Set { soil: 0.6, light: 0.6, level: 4.0, cut: 1.0, trodden: 0.0, seed: 5 };
+    for number in 0..BLADES {
+        let length = |species: &Species| {
+            let Spline(points) = Blade::of(species, &set, number, Bend::Total).stem;
+            points.windows(2).map(|pair| apart(pair[0], pair[1])).sum::<f32>()
+        };
+        assert!((length(&oats) / length(&upright) - 1.0).abs() < 1e-5);
+    }
+    let stalks = |species: &Species| {
+        let turned = |seed: u32| {
+            let (_, [rise, run]) = Blade::of(species, &Set { seed, ..set }, 0, Bend::Total).stem.at(0.0);
+            run.atan2(rise)
+        };
+        (0..1000).map(turned).sum::<f32>() / 1000.0
+    };
+    let lean = stalks(&oats) - stalks(&upright);
+    assert!((lean / oats.splay - 0.2).abs() < 0.02, "{lean} in the mean");
+}
+
 proptest! {
     #[test]
     fn growth_lies_within_its_ranges_for_all_answers(soil in share(), wide in share(), tall in share()) {

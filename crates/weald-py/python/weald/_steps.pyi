@@ -1747,7 +1747,7 @@ class Steps:
         species: list of tables; default []
             What grows: `[{ name = "reed", share = 2, where = [{ layer = "moisture", above = 0.9 }] }, …]`. Without any, ryegrass.
         tussocks: number, 0 to 1; default 0.6
-            How much sets of a tussock, which is 0.7 m wide, share: of so many the species, and all of them soil that is by up to half of that better or worse than the layer's. With 0, as in the publication, each set stands alone.
+            How alike the sets of a tussock, 0.7 m wide, are: this share of them is of one species, and the soil of tussocks is up to half of it better or worse than the layer's. 0, as in the publication: each set stands alone.
         water: number, 0 to 10000 m; default 0.05
             Depth of the layer `water`, where there is one, up to which grass stands in it.
         age: number, 0 to 1; default 1.0

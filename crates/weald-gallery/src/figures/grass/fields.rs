@@ -79,7 +79,7 @@ pub(super) fn maps() -> Maps {
 
 fn meadow(job: GalleryJob) -> Meadow {
     Meadow {
-        species: vec![Species { height: 0.85, ..SPECIES[0].clone() }],
+        species: vec![Species { height: 0.85, splay: 0.0, ..SPECIES[0].clone() }],
         bend: Bend::Total,
         seed: 5,
         densest: job.choose(150.0, 6.0),

@@ -10,7 +10,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::Places;
 use weald_picture::{Around, Frame, Image, Render, RenderDevice, RenderKeys, View};
 use weald_plants::Vegetation;
-use weald_plants::grass::{Bend, LEVELS, Maps, Meadow, SPECIES};
+use weald_plants::grass::{Bend, LEVELS, Maps, Meadow, SPECIES, Species};
 
 pub(in crate::figures) const FIGURE_12: Figure = Figure {
     id: "grass-12",
@@ -95,7 +95,7 @@ fn mapped() -> Result<Landscape, Error> {
     landscape.sow(
         "grass",
         Meadow {
-            species: vec![SPECIES[0].clone()],
+            species: vec![Species { splay: 0.0, ..SPECIES[0].clone() }],
             bend: Bend::Total,
             seed: 5,
             densest: 170.0,

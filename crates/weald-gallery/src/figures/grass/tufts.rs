@@ -102,7 +102,7 @@ pub(super) fn portrait(species: &Species, sets: &[(Vector, Set)], high: f32, siz
 }
 
 fn make(job: GalleryJob) -> FigureOutput {
-    let species = Species { variation: 0.2, width: 0.014, ..SPECIES[0].clone() };
+    let species = Species { variation: 0.2, width: 0.014, splay: 0.0, ..SPECIES[0].clone() };
     let set = |level| Set { soil: 0.95, light: 0.35, level, cut: 1.0, trodden: 0.0, seed: 12 };
     let size = job.choose([270, 250], [40, 40]);
     let images = STAGES.map(|level| {

@@ -33,6 +33,7 @@ pub(super) struct MeadowHeader {
 struct SpeciesHeader {
     name: String,
     height: f32,
+    splay: f32,
     soil: [f32; 3],
     wide: [f32; 5],
     tall: [f32; 5],
@@ -95,6 +96,7 @@ impl SpeciesHeader {
         Self {
             name: species.name.to_owned(),
             height: species.height,
+            splay: species.splay,
             soil: soil.values(),
             wide: width.values(),
             tall: height.values(),
@@ -106,7 +108,8 @@ impl SpeciesHeader {
             Species::named(&self.name).ok_or_else(|| format!("there is no grass {:?}", self.name))?;
         let (soil, width, height) =
             (SoilCurve::new(self.soil)?, LightCurve::new(self.wide)?, LightCurve::new(self.tall)?);
-        Ok(Species { height: self.height, curves: Curves { soil, width, height }, ..species.clone() })
+        let (curves, splay) = (Curves { soil, width, height }, self.splay);
+        Ok(Species { height: self.height, splay, curves, ..species.clone() })
     }
 }
 

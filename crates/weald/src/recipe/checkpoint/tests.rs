@@ -28,7 +28,7 @@ fn state() -> State {
     landscape.sow(
         "lawn",
         Meadow {
-            species: vec![SPECIES[1].clone(), Species { height: 0.1, ..SPECIES[3].clone() }],
+            species: vec![SPECIES[1].clone(), Species { height: 0.1, splay: 0.2, ..SPECIES[3].clone() }],
             bend: Bend::Printed,
             seed: u64::MAX,
             densest: 0.1,

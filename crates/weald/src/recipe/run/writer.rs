@@ -118,7 +118,7 @@ impl Writer<'_> {
         let (landscape, count) = (self.finished.landscape, kept.count);
         if let (Some(render), Some(device)) = (picture.as_render(), self.device) {
             let frame_sequence = render.frame_sequence(landscape, device)?;
-            let mut rendering = frame_sequence.set_up()?;
+            let mut rendering = frame_sequence.set_up_film()?;
             return kept.write(path, &mut |number| {
                 (self.next_frame)(number, count)?;
                 let seconds = number as f64 / kept.per_second;
