@@ -66,7 +66,8 @@ impl Rivers {
             // Where springs feed it, a river may carry more than all of the land would: it is drawn as draining that.
             let area = reach.area.min(domain.size.cells() as f32) * square_kilometres;
             let metres = BANKFULL * libm::powf(area, BANKFULL_GROWTH) * broader as f32;
-            let even = metres / domain.cell as f32 * scale;
+            // It grows from its head, as where water that has spread on a fan gathers again.
+            let even = reach.share * metres / domain.cell as f32 * scale;
             let width = even * unevenly_wide(reach.place);
             let [x, y] = winding(reach.place).map(|along| along * scale);
             // A thinner line would come and go as it runs through pixels or between them. It grows downstream alone: by its narrows and
@@ -167,6 +168,18 @@ mod tests {
             widths.iter().fold([f32::MAX, 0.0], |[a, b], &width| [a.min(width), b.max(width)]);
         assert!(most > 1.3 * least, "narrows and pools: {widths:?}");
         assert_eq!([8.0, 24.0, 40.0, 56.0].map(|x| rivers.at([x / 64.0, 40.0 / 64.0])), [0.0; 4]);
+    }
+
+    #[test]
+    fn a_river_begins_as_a_thread() {
+        let landscape = valley(100.0);
+        let rivers = Rivers::of(&landscape, 40.0).expect("a river");
+        let width = |y: f32| (0..256).map(|x| rivers.at([x as f32 / 256.0, y / 64.0])).sum::<f32>();
+        let widths: Vec<f32> = (0..256).map(|y| width(0.25 * y as f32)).collect();
+        let head = widths.iter().position(|&width| width > 0.0).expect("a river");
+        // Over the twelve cells in which it grows, of which its source has two thirds of the area.
+        let grown = widths[head + 48];
+        assert!(grown > 10.0 && widths[head + 4] < 0.35 * grown, "{:?}", &widths[head..head + 60]);
     }
 
     #[test]

@@ -187,7 +187,7 @@ pub fn reach_of_blades(species: &Species) -> f32 {
 }
 
 /// Distance in metres, where blades reach no farther than in a moving picture, up to which every set stands of grass of which the densest has
-/// so many on a square metre: of a denser one no more stand far away than of one with [`CLOSEST`], and so many times as many where blades reach so many
+/// so many on a square metre: of a denser one no more stand far away than of one with 110, and so many times as many where blades reach so many
 /// times as far.
 pub fn whole(densest: f64, reach: f32) -> f32 {
     WHOLE * libm::pow((CLOSEST * f64::from(reach) / densest).min(1.0), 1.0 / f64::from(THINNING)) as f32
